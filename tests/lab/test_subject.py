@@ -9,7 +9,8 @@ import pytest
 from deltaq.contract.experiment import ExperimentRequest
 from deltaq.errors import Problem, RequestError
 from deltaq.lab.library import experiment_ids, get_experiment
-from deltaq.lab.subject import subject_of
+from deltaq.lab.subject import methods_of, subject_of
+from deltaq.simulation.library import method_ids
 
 
 def test_experiments_follow_the_equations_as_if_no_event_ended_them() -> None:
@@ -45,3 +46,12 @@ def test_no_experiment_follows_one_set_of_equations_where_there_are_several(expe
     with pytest.raises(RequestError) as caught:
         list(get_experiment(experiment).run({"scene": line | JUMPS[jump], "t_end": 5.0} | asked))
     assert caught.value.problems == (Problem("lab-jumps", "/scene"),)
+
+
+def test_methods_that_cannot_keep_constraints_are_left_out_or_refused_by_name() -> None:
+    problem = subject_of(ExperimentRequest(scene="cartesian-pendulum", t_end=1.0)).problem
+    assert [each.id for each in methods_of(problem, ())] == [name for name in method_ids() if name != "taylor"]
+    with pytest.raises(RequestError) as caught:
+        methods_of(problem, ["rk4", "taylor"])
+    parameters = {"name": "taylor", "other": "dop853"}
+    assert caught.value.problems == (Problem("method-constraints", "/methods/1", parameters=parameters),)

@@ -19,7 +19,8 @@ from tests.simulation.constrained import (
     sleigh,
 )
 
-from deltaq.errors import SceneError
+from deltaq.errors import Problem as Mistake
+from deltaq.errors import RequestError, SceneError
 from deltaq.mechanics.library import load_scene
 from deltaq.mechanics.scene import Scene
 from deltaq.model.constraints import ConstraintEquations
@@ -99,7 +100,14 @@ def test_two_rods_move_as_the_double_pendulum_in_angles() -> None:
     assert np.abs(by_rods.values - places).max() < 1e-9
 
 
-@pytest.mark.parametrize("method", method_ids())
+def test_series_are_refused_with_what_to_take_instead() -> None:
+    with pytest.raises(RequestError) as caught:
+        simulate(problem_of(pendulum(), 1.0, 11), get_method("taylor"), tolerance=1e-6)
+    parameters = {"name": "taylor", "other": "dop853"}
+    assert caught.value.problems == (Mistake("method-constraints", "/method", parameters=parameters),)
+
+
+@pytest.mark.parametrize("method", [name for name in method_ids() if name != "taylor"])
 def test_every_method_keeps_constraints_and_comes_near(method: str) -> None:
     order = get_method(method).order
     problem = problem_of(pendulum(), 1.0, 11)

@@ -61,14 +61,17 @@ TOLERANCES = {
     "dormand-prince-54": [1e-3, 1e-6, 1e-9],
     "dop853": [1e-3, 1e-6, 1e-9],
     "radau-5": [1e-3, 1e-6, 1e-9],
+    "taylor": [1e-6, 1e-9],
 }
 SCENES = (*scene_ids(), "driven-by-everything", "damped-oscillator", "fast-spherical-pendulum")
-CASES = [
-    pytest.param(name, identifier, tolerance, id=f"{name} {identifier} {tolerance:g}")
+ALL = [
+    (name, identifier, tolerance)
     for name in SCENES
     for identifier in ADAPTIVE
     for tolerance in TOLERANCES[identifier]
-] + [
+    if identifier != "taylor" or not get_scene(name).conditions  # which series cannot keep
+]
+CASES = [pytest.param(*case, id=f"{case[0]} {case[1]} {case[2]:g}") for case in ALL] + [
     pytest.param("wild-double-pendulum", identifier, tolerance, id=f"wild-double-pendulum {identifier} {tolerance:g}")
     for identifier in ADAPTIVE
     for tolerance in TOLERANCES[identifier]
@@ -90,13 +93,10 @@ def test_a_tolerance_is_the_error_of_the_answer(name: str, identifier: str, tole
 def test_the_estimate_is_rarely_a_hundred_times_too_large() -> None:
     """In at least nine of ten runs it is within a factor of 100 at the middle sample."""
     ratios = []
-    for name in SCENES:
-        trusted = reference_of(name)
-        for identifier in ADAPTIVE:
-            for tolerance in TOLERANCES[identifier]:
-                found = simulated(get_scene(name), identifier, 10.0, tolerance=tolerance)
-                true = np.maximum(trusted.errors_of(found), trusted.errors)[1:]
-                ratios.append(np.median(found.estimate.errors[1:] / true))
+    for name, identifier, tolerance in ALL:
+        trusted, found = reference_of(name), simulated(get_scene(name), identifier, 10.0, tolerance=tolerance)
+        true = np.maximum(trusted.errors_of(found), trusted.errors)[1:]
+        ratios.append(np.median(found.estimate.errors[1:] / true))
     assert np.mean(np.array(ratios) <= 100) >= 0.9
 
 

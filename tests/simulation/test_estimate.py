@@ -9,7 +9,7 @@ from tests.simulation.scenes import oscillator
 from deltaq.simulation.estimate import CLOSE, estimate
 from deltaq.simulation.kernels.loop import Result
 from deltaq.simulation.problem import Problem
-from deltaq.simulation.run import Run
+from deltaq.simulation.run import Run, Steps
 from deltaq.simulation.service import problem_of
 
 TIMES = np.linspace(0.0, 10.0, 401)
@@ -20,7 +20,7 @@ def run_of(phase: np.ndarray | float = 0.0, size: float = 1.0) -> Run:
     """cos(2t + phase) as if it had been computed."""
     angle = FREQUENCY * TIMES + phase
     states = size * np.column_stack([np.cos(angle), -FREQUENCY * np.sin(angle)])
-    return Run(TIMES, states, Result(0, len(TIMES), 1, 0, 1, 10.0), 1.0, 0.0)
+    return Run(TIMES, states, Result(0, len(TIMES), 1, 0, 1, 10.0), 1.0, 0.0, Steps(0.1))
 
 
 @pytest.fixture
@@ -62,5 +62,5 @@ def test_small_motions_lose_their_digits_at_their_own_size(problem: Problem) -> 
 
 
 def test_the_shorter_run_decides_how_far(problem: Problem) -> None:
-    short = Run(TIMES[:50], run_of(1e-6).states[:50], Result(1, 50, 1, 0, 1, 1.2), 1.0, 0.0)
+    short = Run(TIMES[:50], run_of(1e-6).states[:50], Result(1, 50, 1, 0, 1, 1.2), 1.0, 0.0, Steps(0.1))
     assert len(estimate(problem, short, run_of(), 1.0).errors) == 50

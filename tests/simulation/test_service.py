@@ -177,6 +177,7 @@ def test_a_position_without_value_ends_the_answer() -> None:
     [
         pytest.param({}, "dormand-prince-54", "auto_short", id="short"),
         pytest.param({"t_end": 100.0, "tolerance": 1e-9}, "dop853", "auto_smooth", id="long and accurate"),
+        pytest.param({"t_end": 1.0, "tolerance": 1e-12}, "taylor", "auto_series", id="beyond order 8"),
         pytest.param({"scene": "quarter-car", "t_end": 100.0, "tolerance": 1e-9}, "dop853", "auto_smooth", id="driven"),
         pytest.param({"step": 0.01}, "rk4", "auto_fixed_step", id="fixed step"),
         pytest.param({"scene": write_scene(oscillator("-k*abs(x)*x"))}, "dormand-prince-54", "auto_kinks", id="kinks"),
@@ -328,7 +329,7 @@ def test_all_problems_are_told_at_once() -> None:
 
 @pytest.mark.parametrize("language", LANGUAGES)
 def test_every_status_and_method_has_its_sentences(language: str) -> None:
-    for code in (*codes(), "auto_smooth", "auto_short", "auto_kinks", "auto_stiff", "auto_fixed_step"):
+    for code in (*codes(), "auto_smooth", "auto_series", "auto_short", "auto_kinks", "auto_stiff", "auto_fixed_step"):
         assert text(language, f"statuses.{code}.reason")
         assert text(language, f"statuses.{code}.remedy") or code == "ok" or code.startswith("auto")
     for identifier in (*method_ids(), AUTO):

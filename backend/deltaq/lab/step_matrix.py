@@ -14,7 +14,7 @@ from functools import singledispatch
 
 import numpy as np
 
-from ..simulation.method import Newmark, Partitioned, Row, Tableau
+from ..simulation.method import Newmark, Partitioned, Row, Series, Tableau
 from ..simulation.problem import Floats, Problem
 from ..simulation.stiffness import jacobians
 
@@ -77,6 +77,20 @@ def _of_tableau(scheme: Tableau, motion: Linear) -> Step:
         for place in range(scheme.stages):
             slopes[place] = motion.jacobian @ (one + h * np.tensordot(a[place, :place], slopes[:place], 1))
         return np.asarray(one + h * np.tensordot(b[0], slopes, 1))
+
+    return matrix
+
+
+@step_matrix.register
+def _of_series(scheme: Series, motion: Linear) -> Step:
+    """R = Σ (h J)ᵏ/k!, by Horner's rule."""
+    one = np.eye(len(motion.jacobian))
+
+    def matrix(h: float) -> Floats:
+        found = one
+        for k in range(scheme.order, 0, -1):
+            found = one + h / k * motion.jacobian @ found
+        return np.asarray(found)
 
     return matrix
 

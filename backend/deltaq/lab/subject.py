@@ -13,6 +13,7 @@ from ..mechanics.requests import begun_scene, inside
 from ..mechanics.scene import Scene
 from ..mechanics.user_text import plainly
 from ..model.modes import modes_of
+from ..simulation.driver import is_suitable, require_suitable
 from ..simulation.library import get_method, method_ids
 from ..simulation.method import Method
 from ..simulation.problem import Problem
@@ -80,15 +81,22 @@ def bounded(subject: Subject, step_limit: int) -> Problem:
     return replace(subject.problem, step_limit=step_limit)
 
 
-def methods_of(names: Sequence[str], default: tuple[str, ...] = ()) -> tuple[Method, ...]:
-    """The methods asked for, all if none is named. Raises UnknownNameError with the place in the list."""
+def methods_of(problem: Problem, names: Sequence[str], default: Sequence[str] = ()) -> tuple[Method, ...]:
+    """The methods asked for; if none is named the default ones, or else all that can do the problem.
+
+    Raises UnknownNameError with the place in the list, and RequestError for one that cannot do the problem.
+    """
+    if not names:
+        usual = map(get_method, default or method_ids())
+        return tuple(method for method in usual if is_suitable(problem, method))
     found = []
-    for index, name in enumerate(names or default or method_ids()):
+    for index, name in enumerate(names):
         try:
             found.append(get_method(name))
         except UnknownNameError as error:
             problems = (replace(one, pointer=f"/methods/{index}") for one in error.problems)
             raise UnknownNameError(*problems) from None
+        require_suitable(problem, found[-1], f"/methods/{index}")
     return tuple(dict.fromkeys(found))
 
 

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Hashable, Mapping
 from dataclasses import dataclass, field
 from functools import cached_property, lru_cache
+from typing import TypeVar, cast
 
 import symengine as se
 
@@ -15,10 +16,13 @@ from .disturbance import disturbed
 from .equations import Equations, equations
 from .functions import Expr
 from .phase import PhaseSpace, phase_space
+from .recurrence_writer import recurrences_of
+from .recurrences import Recurrences
 from .solved import CompiledSolution, compiled_solution
 from .symbols import Symbols
-from .tape import Tape, tape_of
+from .tape import Tape, shared_tape_of, tape_of
 
+T = TypeVar("T")
 DISTURBANCE = 2.0**-42  # 2¹⁰ units in the last place
 
 
@@ -94,6 +98,7 @@ class Model:
     disturbance: float = 0.0  # relative, of every entry of M and f
     of: Callable[[Scene], Equations] = field(default=equations, repr=False, compare=False)
     usage: Usage = field(default_factory=Usage, init=False, repr=False, compare=False)
+    _made: dict[Hashable, object] = field(default_factory=dict, init=False, repr=False, compare=False)
 
     @cached_property
     def thorough(self) -> Compiled:
@@ -128,6 +133,16 @@ class Model:
         """Whether its last parameters are modes, in which runs go on behind events (`modes`)."""
         return self.of is not equations
 
+    def kept(self, key: Hashable, make: Callable[[], T]) -> T:
+        """What was made of this model before under a key, made now if it was not."""
+        if key not in self._made:
+            self._made[key] = make()
+        return cast("T", self._made[key])
+
+    def has(self, key: Hashable) -> bool:
+        """Whether something is kept under a key."""
+        return key in self._made
+
     def settle(self) -> None:
         """From now on all runs are in the same, thorough code: for those who compare times."""
         _ = self.thorough
@@ -136,6 +151,14 @@ class Model:
     def is_thorough(self) -> bool:
         """Whether `thorough` is there already."""
         return "thorough" in self.__dict__
+
+    @cached_property
+    def recurrences(self) -> Recurrences:
+        """The model for Taylor series; made when a method first asks for them."""
+        eqs = self._equations
+        inputs = eqs.symbols.inputs
+        tape = shared_tape_of(inputs, of_motion(eqs), inputs[2 * self.layout.degrees + 1 :])
+        return recurrences_of(tape, self.layout.degrees, is_powered=eqs.is_powered)
 
     @cached_property
     def phase(self) -> PhaseSpace:

@@ -72,7 +72,22 @@ class Tape:
 
 def tape_of(inputs: Sequence[Expr], outputs: Sequence[Expr]) -> Tape:
     """The tape of some expressions in the inputs; equal subexpressions stand on it once."""
-    writer = _Writer({symbol: number for number, symbol in enumerate(inputs)})
+    return _written(_Writer({symbol: number for number, symbol in enumerate(inputs)}), outputs)
+
+
+def shared_tape_of(inputs: Sequence[Expr], outputs: Sequence[Expr], constants: Sequence[Expr]) -> Tape:
+    """The same with fewer operations: common parts of sums and products are found, and constants come first in both.
+
+    `constants` are the inputs that stay as they are along a motion.
+    """
+    writer = _Writer({symbol: number for number, symbol in enumerate(inputs)}, set(constants))
+    definitions, shared = se.cse(list(outputs))
+    for symbol, expression in definitions:
+        writer.define(symbol, expression)
+    return _written(writer, shared)
+
+
+def _written(writer: _Writer, outputs: Sequence[Expr]) -> Tape:
     places = [writer.place(se.sympify(output)) for output in outputs]
     codes, a, b, c, constants = zip(*writer.operations, strict=True) if writer.operations else ((),) * 5
     columns = (np.array(column, dtype=np.int64) for column in (codes, a, b, c))
@@ -83,8 +98,9 @@ def tape_of(inputs: Sequence[Expr], outputs: Sequence[Expr]) -> Tape:
 class _Writer:
     """Writes operations one behind the other and remembers where the value of each expression stands."""
 
-    def __init__(self, numbers: Mapping[Expr, int]) -> None:
+    def __init__(self, numbers: Mapping[Expr, int], constants: set[Expr] | None = None) -> None:
         self.operations: list[tuple[int, int, int, int, float]] = []
+        self._constants = constants
         self._known: dict[Expr, int] = {}
         for symbol, number in numbers.items():
             self._known[symbol] = self._write(INPUT, number)
@@ -105,6 +121,12 @@ class _Writer:
             found = self._known[expression] = self._written(expression)
         return found
 
+    def define(self, symbol: Expr, expression: Expr) -> None:
+        """From now on the symbol stands for an expression."""
+        self._known[symbol] = self.place(expression)
+        if self._constants is not None and expression.free_symbols <= self._constants:
+            self._constants.add(symbol)
+
     def _write(self, code: int, a: int = 0, b: int = 0, c: int = 0, constant: float = 0.0) -> int:
         self.operations.append((code, a, b, c, constant))
         return len(self.operations) - 1
@@ -120,11 +142,16 @@ class _Writer:
         return self._write(CONSTANT, constant=float(expression))
 
     def _chain(self, code: int, parts: Sequence[Expr]) -> int:
+        if self._constants is not None:
+            parts = sorted(parts, key=self._moves)
         places = [self.place(part) for part in parts]
         found = places[0]
         for place in places[1:]:
             found = self._write(code, found, place)
         return found
+
+    def _moves(self, part: Expr) -> bool:
+        return not part.free_symbols <= (self._constants or set())
 
     def _power(self, expression: Expr) -> int:
         base, exponent = expression.args

@@ -19,7 +19,7 @@ from .method import Method
 from .passages import begun
 from .pieces import Pieces, Stretch
 from .problem import Floats, Problem
-from .refinement import FINER, Refinement
+from .refinement import FINER, LAST, Refinement
 from .run import Run, Steps, run
 from .side_by_side import side_by_side
 
@@ -95,6 +95,15 @@ class Integrator:
             return run_on(self.problem, self.modes, self.method, self.times, self.cancelled, steps)
         return run(self.problem, self.method, self.times, self.cancelled, steps)
 
+    def _finer(self, steps: Steps) -> Run:
+        """The finer run of a pair.
+
+        One that only tells the error of the other is nudged, so that what rounding does to both alike shows in their
+        difference.
+        """
+        is_answer = self.refinement.answer == LAST or steps.tolerance == 0.0
+        return self._run(steps if is_answer or self.modes is not None else replace(steps, is_nudged=True))
+
     @property
     def judge(self) -> Problem:
         """The problem by which errors are measured."""
@@ -108,8 +117,8 @@ class Integrator:
     def fine(self) -> Attempt:
         """One run that should meet the tolerance, without an error estimate."""
         pieces = self.audit.before(self.tolerance)
-        _, fine = self.refinement.pair(self.refinement.first(self.tolerance), pieces)
-        only = self._run(replace(fine, pieces=pieces))
+        answer = self.refinement.pair(self.refinement.first(self.tolerance), pieces)[self.refinement.answer]
+        only = self._run(replace(answer, pieces=pieces))
         return Attempt(only, (only,), None)
 
     @cached_property
@@ -148,7 +157,7 @@ class Integrator:
         return replace(found, estimate=larger(of_given, of_fine), discarded=(*found.discarded, third))
 
     def pair(self, resolution: float, pieces: Pieces, before: Attempt | None = None) -> tuple[Attempt, Pieces]:
-        """Two runs at a resolution; the finer one is returned, with the pieces in which it was nowhere blind.
+        """Two runs at a resolution, and the pieces in which the finer one was nowhere blind.
 
         The coarser one is the best of the attempt before where the two can be compared.
         """
@@ -158,9 +167,9 @@ class Integrator:
         def compared(pieces: Pieces) -> Attempt:
             of_fine = replace(fine, pieces=self.refinement.of_fine(pieces), is_recorded=True)
             of_coarse = replace(coarse, pieces=pieces)
-            runs = self._both(of_coarse, of_fine) if known is None else (known, self._run(of_fine))
-            factor = self.refinement.factor_of_fine(coarse if known is None else known.steps or coarse, fine)
-            return Attempt(runs[-1], runs, estimate(self.judge, *runs, factor), is_shared=known is not None)
+            runs = self._both(of_coarse, of_fine) if known is None else (known, self._finer(of_fine))
+            factor, answer = self.refinement.factor_of_answer(runs[0].steps, runs[-1].steps), self.refinement.answer
+            return Attempt(runs[answer], runs, estimate(self.judge, *runs, factor), is_shared=known is not None)
 
         return self._seen(pieces, compared)
 
@@ -196,7 +205,7 @@ class Integrator:
         Where rounding may matter, one more run with a disturbed model measures it.
         """
         fine = found.runs[-1]
-        if found.estimate is None or fine.steps is None or not rounding_matters(self.judge, fine, found.estimate):
+        if found.estimate is None or not rounding_matters(self.judge, fine, found.estimate):
             return found
         other = self._disturbed._run(replace(fine.steps, is_recorded=False))  # noqa: SLF001 - its own kind
         mended = with_rounding(self.judge, found.estimate, fine, other)
@@ -217,8 +226,8 @@ class Integrator:
         """Two runs; side by side if they may take a while, for kernels hold no lock."""
         work = self.problem.t_end * fine.ratio * self.method.tableau.stages
         if self.modes is not None or (coarse.tolerance == 0.0 and work < BRIEF * fine.size):
-            return self._run(coarse), self._run(fine)
-        of_fine, of_coarse = side_by_side(lambda: self._run(fine), lambda: self._run(coarse))
+            return self._run(coarse), self._finer(fine)
+        of_fine, of_coarse = side_by_side(lambda: self._finer(fine), lambda: self._run(coarse))
         return of_coarse, of_fine
 
     def until(self) -> list[Attempt]:
@@ -243,9 +252,7 @@ class Integrator:
         if not 1.0 < short < np.inf:
             return found
         coarse, fine = found.runs
-        if coarse.steps is None or fine.steps is None:
-            return found
-        factor = short * self.refinement.factor_of_fine(coarse.steps, fine.steps)
+        factor = short * self.refinement.factor_of_answer(coarse.steps, fine.steps)
         return replace(found, estimate=estimate(self.judge, coarse, fine, factor))
 
 

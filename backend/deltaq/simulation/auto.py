@@ -15,9 +15,11 @@ from ..vocabulary import AUTO
 from .choice import Choice
 from .library import get_method
 from .problem import Problem
+from .refinement import AHEAD, LARGEST_OF_SERIES
 from .run import Steps, run
 from .stiffness import drive, spectra
 
+SERIES_REACH = 4.0  # of the real axis, about
 LEAST_STEPS = 140.0  # of any run, since no step may be longer than a part of the span
 LOOSE = 1e-3
 SHORT, SHORT_STEPS = 0.05, 500
@@ -47,7 +49,30 @@ class Candidate:
         return self.cost * max(accurate, span * size / self.reach, LEAST_STEPS)
 
 
+@dataclass(frozen=True)
+class SeriesCandidate:
+    """A cost model of Taylor series: `per_radian` steps for each radian, whatever the tolerance, of an order by it.
+
+    A step costs `per_order` right-hand sides for each order; code for the series must be compiled first, which takes
+    as long as `start` right-hand sides.
+    """
+
+    id: str
+    reason: str
+    per_radian: float
+    per_order: float
+    start: float
+
+    def effort(self, span: float, tolerance: float, lasting: float, size: float) -> float:
+        """The estimated number of right-hand sides of one run, for the arguments of `Candidate.effort`."""
+        order = 1.0 - 0.5 * float(np.log(AHEAD * tolerance))
+        steps = max(span * max(lasting, size / SERIES_REACH) * self.per_radian, 1.0 / LARGEST_OF_SERIES)
+        return self.start + self.per_order * order * steps
+
+
 # Factors measured on the library of scenes (medians).
+SERIES = SeriesCandidate("taylor", "auto_series", 2.5, 1.05, 60_000.0)
+BEYOND = 1e-11  # a tolerance from here on only series reach in most scenes
 SMOOTH = Candidate("dop853", "auto_smooth", 0.35, 8, 6.3, 13.0)
 MIDDLING = Candidate("dormand-prince-54", "auto_short", 0.47, 5, 3.3, 6.0)
 STIFF = Candidate("radau-5", "auto_stiff", 0.75, 4, np.inf, 22.0)
@@ -68,11 +93,19 @@ def choose(wanted: str, scene: Scene, problem: Problem, step: float | None, tole
         return Choice(get_method("rk4"), "auto_fixed_step")
     size, lasting = _speeds(problem)
 
-    def effort(candidate: Candidate) -> float:
+    def effort(candidate: Candidate | SeriesCandidate) -> float:
         return candidate.effort(problem.t_end, tolerance or LOOSE, lasting, size)
 
-    best = min(KINKED_ONES if _has_kinks(scene) else ALL, key=effort)
+    best = min(_candidates(scene, problem, tolerance or LOOSE), key=effort)
     return Choice(get_method(best.id), best.reason)
+
+
+def _candidates(scene: Scene, problem: Problem, tolerance: float) -> tuple[Candidate | SeriesCandidate, ...]:
+    if _has_kinks(scene):
+        return KINKED_ONES
+    if problem.is_constrained:  # which series cannot do
+        return ALL
+    return (*ALL, SERIES) if tolerance > BEYOND else (replace(SERIES, start=0.0), STIFF)
 
 
 def _speeds(problem: Problem) -> tuple[float, float]:

@@ -9,6 +9,8 @@ from dataclasses import replace
 
 import numpy as np
 
+from ..errors import Problem as Mistake
+from ..errors import RequestError
 from ..model.modes import Modes, modes_of
 from .attempt import Attempt, Integrator
 from .audit import Audit, GuideJump
@@ -16,11 +18,11 @@ from .conclusion import outcome
 from .estimate import Estimate
 from .event import EventOccurrence
 from .integration import Flag
-from .method import Method
+from .method import Method, Series
 from .passages import Happening
 from .problem import Floats, Problem
 from .reactions import reactions_at
-from .refinement import ByStep, ByTolerance, Refinement
+from .refinement import BySeries, ByStep, ByTolerance, Refinement
 from .rounding import significant
 from .run import Stop
 from .trajectory import MOST_TOLD, Cost, Trajectory
@@ -46,6 +48,7 @@ def simulate(
     """
     if (step is None) == (tolerance is None):
         raise ValueError("give either a step or a tolerance")
+    require_suitable(problem, method)
     guide_jump, modes = Audit(problem, method).guide_jump(), modes_of(problem.model.scene)
     flag = np.zeros(1, dtype=np.int64) if cancelled is None else cancelled
     integrator = Integrator(
@@ -65,7 +68,20 @@ def simulate(
     return _trajectory(problem, method, attempts, tolerance, step, guide_jump)
 
 
+def require_suitable(problem: Problem, method: Method, pointer: str = "/method") -> None:
+    """Raises RequestError for a method that cannot do a problem, with one that can."""
+    if not is_suitable(problem, method):
+        raise RequestError(Mistake("method-constraints", pointer, parameters={"name": method.id, "other": "dop853"}))
+
+
+def is_suitable(problem: Problem, method: Method) -> bool:
+    """Whether a method can do a problem: series have no way back to constraints yet."""
+    return not (problem.is_constrained and isinstance(method.tableau, Series))
+
+
 def _refinement(problem: Problem, method: Method, tolerance: float | None, modes: Modes | None) -> Refinement:
+    if tolerance is not None and isinstance(method.tableau, Series):
+        return BySeries(problem.t_end, method.tableau)
     if tolerance is not None and method.is_adaptive:
         return ByTolerance(problem.t_end, method.error_order or method.order)
     sure = 1 if (problem if modes is None else modes).model.tape.has_choices else method.order

@@ -185,8 +185,8 @@ def _whole(record: _Record, times: Floats, outcome: int, reached: float, found: 
         result,
         record.conditioning,
         record.wall_time,
+        found.steps,
         held=found.held,
-        steps=found.steps,
         happenings=tuple(record.happenings),
         meshes=tuple(record.meshes),
     )

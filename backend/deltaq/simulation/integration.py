@@ -8,6 +8,7 @@ from functools import cache, singledispatch
 import numpy as np
 from numpy.typing import NDArray
 
+from ..model.recurrences import nudged
 from .constraints import block, solved_in
 from .kernels.constraints import constrained_motion, constrained_phase
 from .kernels.explicit_runge_kutta import integrate
@@ -25,9 +26,11 @@ from .kernels.step import Weights, make_workspace
 from .kernels.step_control import Control
 from .kernels.switch import Switch, make_switch
 from .kernels.system import SIGNS
-from .kernels.watch import Watch, make_watch, unwatched
-from .method import Newmark, Partitioned, Row, Scheme, Tableau
+from .kernels.taylor import integrate_series, make_series
+from .kernels.watch import NODES, NODES_OF_SERIES, Watch, make_watch, unwatched
+from .method import Newmark, Partitioned, Row, Scheme, Series, Tableau
 from .problem import Floats, Problem
+from .series.engine import jet_of_model
 
 Flag = NDArray[np.int64]  # one number; anything but 0 ends the run
 
@@ -37,6 +40,7 @@ class KernelArguments:
     """What every kernel is given: the right-hand side, how to step, what to watch for, and where samples belong.
 
     out[i] becomes the state at times[i], as far as the run comes: `times` has shape (samples,), `out` (samples, width).
+    Series need to know whether the run `is_long`, their order, and whether they are nudged.
     """
 
     problem: Problem
@@ -45,6 +49,9 @@ class KernelArguments:
     watch: Watch
     times: Floats
     out: Floats
+    is_long: bool
+    order: int | None
+    is_nudged: bool
 
 
 @singledispatch
@@ -110,6 +117,28 @@ def _newmark(scheme: Newmark, arguments: KernelArguments) -> Result:
     )
 
 
+@run_kernel.register
+def _series(scheme: Series, arguments: KernelArguments) -> Result:
+    problem = arguments.problem
+    jet = jet_of_model(problem.model, is_long=arguments.is_long)
+    recurrences, state = problem.model.recurrences, problem.state
+    constants = recurrences.constants(np.array(problem.parameters))
+    if arguments.is_nudged:
+        constants, state = recurrences.nudged(constants), nudged(state)
+    order = arguments.order or scheme.order_for(arguments.control.tolerance)
+    sizes = (len(recurrences.conditions), jet.shape.components, jet.work)
+    series = make_series(jet.code.address, order, jet.program, sizes, state, constants)
+    return integrate_series(
+        arguments.motion,
+        series,
+        arguments.control,
+        arguments.watch,
+        np.zeros_like(problem.state),
+        arguments.times,
+        arguments.out,
+    )
+
+
 def motion_of(problem: Problem, *, is_long: bool = True, is_kicked: bool = False) -> Motion:
     """The right-hand side of a problem for kernels, in code for long runs or code that is compiled quickly."""
     motion = problem.model.thorough if is_long else problem.model.motion
@@ -128,14 +157,15 @@ def motion_of(problem: Problem, *, is_long: bool = True, is_kicked: bool = False
     )
 
 
-def watch_of(problem: Problem, flag: Flag) -> Watch:
-    """What may end a run of a problem, for kernels: the flag, shape (1,), events, and friction."""
+def watch_of(problem: Problem, flag: Flag, scheme: Scheme | None = None) -> Watch:
+    """What may end a run of a problem by a scheme, for kernels: the flag, shape (1,), events, and friction."""
     function, switch = problem.model.events, _switch_of(problem)
     if function is None:
         return unwatched(flag, switch)
+    nodes = NODES_OF_SERIES if isinstance(scheme, Series) else NODES
     inputs = np.zeros(function.inputs)
     inputs[2 * problem.degrees + 1 :] = problem.parameters
-    return make_watch(flag, function.addresses, function.outputs, inputs, problem.state.size, switch)
+    return make_watch(flag, function.addresses, function.outputs, inputs, problem.state.size, switch, nodes)
 
 
 def _switch_of(problem: Problem) -> Switch:

@@ -5,9 +5,10 @@ from __future__ import annotations
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
-from math import isqrt
+from math import ceil, isqrt, log
 
 Row = tuple[Fraction, ...]
+LEAST_ORDER = 4  # of a series
 NEGLIGIBLE = Fraction(1, 10**25)  # roots are given to 40 digits
 
 
@@ -97,7 +98,32 @@ class Newmark:
         return (self.beta, self.gamma) == (Fraction(1, 4), Fraction(1, 2))
 
 
-Scheme = Tableau | Partitioned | Newmark
+@dataclass(frozen=True)
+class Series:
+    """Taylor's series of the motion: of this order with steps that are given, of one by the tolerance with others.
+
+    Each order counts as a stage, since each asks all operations of the right-hand side for one more coefficient.
+    """
+
+    order: int
+    family = "taylor-series"
+    is_symplectic = False
+    is_symmetric = False
+    error: Row = (Fraction(1),)  # the last coefficients
+
+    @property
+    def stages(self) -> int:
+        return self.order
+
+    def order_for(self, tolerance: float) -> int:
+        """The order that takes least time for a local tolerance; the given one for none (0).
+
+        Source: À. Jorba, M. Zou, Experimental Mathematics 14 (2005) 99–117, §3.1.
+        """
+        return self.order if tolerance == 0.0 else max(ceil(1.0 - 0.5 * log(tolerance)), LEAST_ORDER)
+
+
+Scheme = Tableau | Partitioned | Newmark | Series
 
 
 @dataclass(frozen=True)
@@ -137,7 +163,7 @@ class Method:
 
     @property
     def is_explicit(self) -> bool:
-        return isinstance(self.tableau, Tableau)
+        return isinstance(self.tableau, Tableau | Series)
 
 
 def discrete_action(a: tuple[Row, ...], b: Row, c: Row) -> Partitioned:

@@ -7,6 +7,7 @@ from typing import Protocol
 
 import numpy as np
 
+from .method import Series
 from .pieces import Pieces
 from .run import Run, Steps
 
@@ -24,6 +25,13 @@ CLOSEST, FARTHEST_TOLERANCE = 10.0, 110.0  # between these the tolerances of a p
 MARGIN = 14.0  # how far errors may fall short of shrinking as the theory says
 LEAST_PART = 0.3  # of how far tolerances are apart, where a run is compared with one before
 GRAIN = 1e-13  # below, rounding has its part in what a tolerance does
+FIRST, LAST = 0, -1  # runs of a pair, the coarser one first
+APART = 1.2  # the largest steps of a coarser series over those of the finer one
+BELOW = 1e-3  # the local tolerance of a finer series over that of the coarser one
+AHEAD = 1e-2  # that of a first series over the tolerance; ten times less costs but one order more
+GRAIN_OF_SERIES, AMONG_ROUNDING = 2e-12, 4.0  # below that local tolerance both runs may be equally wrong
+FINEST_OF_SERIES = 1e-15  # below, rounding rules
+LARGEST_OF_SERIES = 0.05  # the largest step of the coarser one over the span
 LARGEST_STEP = 0.01  # of the span, so that a motion that begins at rest does not jump over what comes later
 
 
@@ -37,8 +45,12 @@ class Refinement(Protocol):
     def factor_of_coarse(self) -> float:
         """What the difference of two runs is multiplied by to estimate the error of the coarser one."""
 
-    def factor_of_fine(self, coarse: Steps, fine: Steps) -> float:
-        """The same for the finer one."""
+    @property
+    def answer(self) -> int:
+        """Which run of a pair is the answer, FIRST or LAST."""
+
+    def factor_of_answer(self, coarse: Steps, fine: Steps) -> float:
+        """What their difference is multiplied by to estimate the error of that one."""
 
     def can_compare(self, coarse: Run, fine: Steps) -> bool:
         """Whether a run and a finer one are far enough apart, but not too far, for an estimate."""
@@ -82,8 +94,9 @@ class ByTolerance:
     t_end: float
     error_order: int
     factor_of_coarse: float = 1.35
+    answer: int = LAST
 
-    def factor_of_fine(self, coarse: Steps, fine: Steps) -> float:
+    def factor_of_answer(self, coarse: Steps, fine: Steps) -> float:
         return min(MARGIN * fine.tolerance / coarse.tolerance, self.factor_of_coarse)
 
     def _apart(self, fine: float) -> float:
@@ -95,7 +108,7 @@ class ByTolerance:
     def can_compare(self, coarse: Run, fine: Steps) -> bool:
         """Not where steps are often as long as they may be, for then they are as long in the finer run."""
         steps = coarse.steps
-        if steps is None or _is_bounded(steps):
+        if _is_bounded(steps):
             return False
         is_free = coarse.result.steps * steps.size > OFTEN * self.t_end
         apart = self._apart(fine.tolerance)
@@ -129,6 +142,49 @@ class ByTolerance:
 
 
 @dataclass(frozen=True)
+class BySeries:
+    """Taylor series. The coarser run is the answer, for its error is what the difference of the two runs says.
+
+    No factor leads from there to the error of the finer one: local errors of series turn their sign nearly from step to
+    step, so that their sums are as by chance. Being so much finer costs but an order or two.
+    """
+
+    t_end: float
+    scheme: Series
+    factor_of_coarse: float = 2.0
+    answer: int = FIRST
+
+    def factor_of_answer(self, coarse: Steps, _fine: Steps) -> float:
+        return AMONG_ROUNDING if coarse.tolerance < GRAIN_OF_SERIES else self.factor_of_coarse
+
+    def can_compare(self, _coarse: Run, _fine: Steps) -> bool:
+        return False
+
+    def of_fine(self, pieces: Pieces) -> Pieces:
+        return pieces.scaled(1.0 / APART)
+
+    def least_part(self, _before: float, _resolution: float) -> float:
+        return 0.0
+
+    def finer(self, pieces: Pieces, _before: float, _resolution: float) -> Pieces:
+        return pieces
+
+    def first(self, tolerance: float) -> float:
+        return max(AHEAD * tolerance, FINEST_OF_SERIES)
+
+    def pair(self, resolution: float, _pieces: Pieces) -> tuple[Steps, Steps]:
+        largest, finer = LARGEST_OF_SERIES * self.t_end, BELOW * resolution
+        coarse = Steps(largest, resolution, order=self.scheme.order_for(resolution))
+        return coarse, Steps(largest / APART, finer, order=self.scheme.order_for(finer))
+
+    def next(self, resolution: float, excess: float) -> float:
+        return max(resolution * max(0.1 / excess, 1e-6), FINEST_OF_SERIES)
+
+    def is_finest(self, resolution: float) -> bool:
+        return resolution <= FINEST_OF_SERIES
+
+
+@dataclass(frozen=True)
 class ByStep:
     """Fixed steps. The error is proportional to h^p (Richardson); runs are a little more than a factor of 2 apart.
 
@@ -141,17 +197,18 @@ class ByStep:
     order: int
     step_limit: int
     sure: int
+    answer: int = LAST
 
     @property
     def factor_of_coarse(self) -> float:
         return float(2.5 * FINER**self.sure / (FINER**self.sure - 1))
 
-    def factor_of_fine(self, coarse: Steps, fine: Steps) -> float:
+    def factor_of_answer(self, coarse: Steps, fine: Steps) -> float:
         return float(max(0.03, 4.5 / (_ratio(coarse, fine) ** self.sure - 1)))
 
     def can_compare(self, coarse: Run, fine: Steps) -> bool:
         steps = coarse.steps
-        return steps is not None and not _is_bounded(steps) and NEAREST <= _ratio(steps, fine) <= FARTHEST
+        return not _is_bounded(steps) and NEAREST <= _ratio(steps, fine) <= FARTHEST
 
     def of_fine(self, pieces: Pieces) -> Pieces:
         return pieces

@@ -14,11 +14,12 @@ from .kernels.loop import Result
 from .kernels.motion import EVENT, FINE, HELD, LOCKED, SINGULAR, STEP_LIMIT, STIFF
 from .kernels.plan import CAPACITY, COUNT, STRIDE, Plan, make_plan
 from .kernels.step_control import Control
-from .method import Method
+from .method import Method, Series
 from .passages import Happening
 from .pieces import Pieces
 from .problem import Floats, Problem
 from .reactions import reactions_at
+from .series.engine import jet_of_model
 from .stability import real_stability
 
 APART = 1e-6  # of the distance between two samples; the last one before an event is that far from it at least
@@ -66,13 +67,13 @@ class Run:
     result: Result
     conditioning: float  # smallest pivot of M met, relative to the diagonal entry it is left of
     wall_time: float
+    steps: Steps
     event: Event | None = None
     held: Stop | None = None
     approaches: tuple[Approach, ...] = ()
     mesh_times: Floats = field(default_factory=lambda: np.empty(0))
     mesh_states: Floats = field(default_factory=lambda: np.empty((0, 0)))
     stride: int = 1
-    steps: Steps | None = None
     reactions: Reactions | None = None  # where there are constraints
     happenings: tuple[Happening, ...] = ()
     meshes: tuple[Mesh, ...] = ()
@@ -88,6 +89,8 @@ class Steps:
     """How to step: with a local tolerance and steps up to `size`, or (tolerance 0) with steps of that size.
 
     Pieces bound the steps further; of fixed ones each piece gets a whole number, `ratio` times as many as it needs.
+    `order` is that of a method whose order may be chosen, None for what suits the tolerance. A run that `is_nudged`
+    begins some units in the last place away, with constants that are as far away; only series can.
     """
 
     size: float
@@ -95,6 +98,8 @@ class Steps:
     pieces: Pieces | None = None
     ratio: float = 1.0
     is_recorded: bool = False
+    order: int | None = None
+    is_nudged: bool = False
 
     def plan(self, problem: Problem, method: Method) -> Plan:
         """Pieces and sizes as a kernel wants them; the last fixed step of an implicit method may go past the end."""
@@ -131,17 +136,30 @@ def run(problem: Problem, method: Method, times: Floats, cancelled: Flag, steps:
 
 def _run(problem: Problem, method: Method, times: Floats, cancelled: Flag, steps: Steps, *, is_long: bool) -> Run:
     plan = steps.plan(replace(problem, t_end=float(times[-1])), method)
+    is_series = isinstance(method.tableau, Series)
+    if is_series:
+        jet_of_model(problem.model, is_long=is_long)  # compiled before the time is taken
     arguments = KernelArguments(
         problem,
-        motion_of(problem, is_long=is_long, is_kicked=is_kicked(method.tableau, problem)),
+        motion_of(problem, is_long=is_long and not is_series, is_kicked=is_kicked(method.tableau, problem)),
         _control(problem, method, steps, plan),
-        watch_of(problem, cancelled),
+        watch_of(problem, cancelled, method.tableau),
         np.ascontiguousarray(times),  # a kernel is compiled anew for an array with strides
         np.zeros((times.size, problem.state.size)),
+        is_long,
+        steps.order,
+        steps.is_nudged,
     )
     start = perf_counter()
     result = run_kernel(method.tableau, arguments)
     wall_time = perf_counter() - start
+    found = _found(arguments, plan, result, wall_time, steps)
+    return found if arguments.watch.functions == 0 else _ended(found, arguments)
+
+
+def _found(arguments: KernelArguments, plan: Plan, result: Result, wall_time: float, steps: Steps) -> Run:
+    """What a kernel left, as far as it is finite."""
+    problem, times = arguments.problem, arguments.times
     out, conditioning = arguments.out, float(arguments.motion.conditioning[0])
     good = int(np.isfinite(out[: result.samples]).all(axis=1).cumprod().sum())
     reactions = None
@@ -151,20 +169,19 @@ def _run(problem: Problem, method: Method, times: Floats, cancelled: Flag, steps
     if problem.reactions:
         out, reactions = reactions_at(problem, times[:good], out[:good])
         good = len(out)
-    found = Run(
+    return Run(
         times[:good],
         out[:good],
         result,
         conditioning,
         wall_time,
+        steps,
         held=_stop(arguments) if result.outcome == HELD else None,
         mesh_times=plan.times[: plan.progress[COUNT]],
         mesh_states=plan.states[: plan.progress[COUNT]],
         stride=int(plan.progress[STRIDE]),
-        steps=steps,
         reactions=reactions,
     )
-    return found if arguments.watch.functions == 0 else _ended(found, arguments)
 
 
 def _control(problem: Problem, method: Method, steps: Steps, plan: Plan) -> Control:

@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from .method import Newmark, Partitioned, Row, Scheme, Tableau
+from .method import Newmark, Partitioned, Row, Scheme, Series, Tableau
 
 FINENESS, FARTHEST = 0.01, 20.0
 ROUNDING = 1e-9  # of a growth that is 1 on paper
@@ -41,6 +41,15 @@ def _of_tableau(scheme: Tableau, z: Complexes) -> Floats:
     for row in a:
         derivatives.append(1.0 + z * sum((weight * k for weight, k in zip(row, derivatives, strict=False)), 0.0 * z))
     return np.asarray(np.abs(1.0 + z * sum((weight * k for weight, k in zip(b, derivatives, strict=True)), 0.0 * z)))
+
+
+@growth.register
+def _of_series(scheme: Series, z: Complexes) -> Floats:
+    """|Σ zᵏ/k!| up to the order, by Horner's rule"""
+    value = np.ones_like(np.asarray(z, dtype=np.complex128))
+    for k in range(scheme.order, 0, -1):
+        value = 1.0 + z / k * value
+    return np.asarray(np.abs(value))
 
 
 @growth.register
@@ -88,7 +97,7 @@ def largest_stable_step(scheme: Scheme, eigenvalues: Complexes) -> float:
 @cache
 def real_stability(scheme: Scheme) -> float:
     """How far an explicit method is stable on the negative real axis, to about one percent below; others: unasked."""
-    if not isinstance(scheme, Tableau):
+    if not isinstance(scheme, Tableau | Series):
         return math.inf
     places = np.arange(FINENESS, FARTHEST, FINENESS)
     unstable = places[growth(scheme, -places.astype(np.complex128)) > 1.0 + ROUNDING]

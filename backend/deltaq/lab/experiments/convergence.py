@@ -25,7 +25,8 @@ STEP_LIMIT = 400_000
 
 def run(request: ConvergenceRequest) -> Iterator[Report]:
     """Every method from coarse to fine."""
-    subject, methods = subject_of(request, SAMPLES), methods_of(request.methods)
+    subject = subject_of(request, SAMPLES)
+    methods = methods_of(subject.problem, request.methods)
     problem = bounded(subject, STEP_LIMIT)
     trusted, settings = reference(problem), fixed_steps(problem)
     warm(problem, *methods)

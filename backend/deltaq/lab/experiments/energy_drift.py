@@ -39,7 +39,8 @@ LONGEST_RUN = 12.0  # seconds
 
 def run(request: EnergyDriftRequest) -> Iterator[Report]:
     """One method after the other."""
-    subject, methods = subject_of(request), methods_of(request.methods, (*METHODS, *VARIABLE))
+    subject = subject_of(request)
+    methods = methods_of(subject.problem, request.methods, (*METHODS, *VARIABLE))
     size, tolerance = request.step or _usual_step(subject.problem), request.tolerance or LOCAL_TOLERANCE
     span = request.steps * size
     problem = replace(subject.problem, t_end=span, step_limit=4 * MOST_STEPS)

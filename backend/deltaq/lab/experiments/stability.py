@@ -39,7 +39,8 @@ TOLERANCE, STEP_LIMIT = 1e-4, 300_000
 
 def run(request: StabilityRequest) -> Iterator[Report]:
     """One method after the other, then the series over the stiffness."""
-    subject, methods = free_subject_of(request), methods_of(request.methods)
+    subject = free_subject_of(request)
+    methods = methods_of(subject.problem, request.methods)
     stiffness = request.stiffness or stiffness_of(subject.scene)
     place = parameter_of(subject, stiffness, "/stiffness") if stiffness else -1
     problem = bounded(subject, STEP_LIMIT)

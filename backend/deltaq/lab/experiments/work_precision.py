@@ -27,7 +27,8 @@ WANTED = tuple(10.0 ** (-k / 4) for k in range(4, 49))  # tolerances that the ch
 
 def run(request: WorkPrecisionRequest) -> Iterator[Report]:
     """Every method from coarse to fine."""
-    subject, methods = subject_of(request, SAMPLES), methods_of(request.methods)
+    subject = subject_of(request, SAMPLES)
+    methods = methods_of(subject.problem, request.methods)
     problem = bounded(subject, STEP_LIMIT)
     trusted = reference(problem)
     warm(problem, *methods)

@@ -1,4 +1,4 @@
-"""Calling a compiled model from inside a kernel, and keeping numbers out of vectors.
+"""Calling a compiled model, or its series, from inside a kernel, and keeping numbers out of vectors.
 
 The addresses are arguments, so one compiled kernel serves every model and can be cached on disk.
 """
@@ -62,6 +62,21 @@ def _array_at(element: Any) -> Any:
     return intrinsic(typed)
 
 
+def _call_jet(_context: Any, _address: Any, out: Any, given: Any, work: Any, program: Any) -> Any:
+    """call_jet(address, out, given, work, program): void f(void *, void *, void *, void *) at `address`."""
+
+    def generate(context: Any, builder: Any, _signature: Any, arguments: Any) -> Any:
+        memory = ir.IntType(8).as_pointer()
+        kind = ir.FunctionType(ir.VoidType(), [memory] * 4)
+        function = builder.inttoptr(arguments[0], kind.as_pointer())
+        arrays = zip((out, given, work, program), arguments[1:], strict=True)
+        data = [context.make_array(array)(context, builder, value).data for array, value in arrays]
+        builder.call(function, [builder.bitcast(each, memory) for each in data])
+        return context.get_dummy_value()
+
+    return types.void(types.int64, out, given, work, program), generate
+
+
 def _prevent_vectorization(_context: Any) -> Any:
     """prevent_vectorization(): the function in which this stands, and what it is a part of, is not vectorized.
 
@@ -80,4 +95,5 @@ call: Any = intrinsic(_call)
 call_finish: Any = intrinsic(_call_finish)
 doubles_at: Any = _array_at(types.float64)
 integers_at: Any = _array_at(types.int64)
+call_jet: Any = intrinsic(_call_jet)
 prevent_vectorization: Any = intrinsic(_prevent_vectorization)

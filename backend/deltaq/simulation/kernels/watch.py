@@ -18,16 +18,17 @@ from .pointer import call
 from .switch import Switch, make_switch
 
 NODES = 9  # extensions have degree 7 at most
+NODES_OF_SERIES = 25  # and Taylor series more
 
 
 class Watch(NamedTuple):
     """A flag, and a compiled function with so many outputs (`functions`), all positive as long as nothing has happened.
 
     `cancelled`, shape (1,), ends the run when it is not 0. `inputs`, shape (inputs,), are those of the motion. `nodes`,
-    shape (NODES,), are Chebyshev's extreme points in units of a step; `states`, shape (NODES, width), are the states at
-    `times`, shape (NODES,), and `values`, shape (NODES, functions), what the function says of them. Of each output,
+    shape (nodes,), are Chebyshev's extreme points in units of a step; `states`, shape (nodes, width), are the states at
+    `times`, shape (nodes,), and `values`, shape (nodes, functions), what the function says of them. Of each output,
     `least`, shape (functions,), is the least value up to the first step that may have fallen through zero, and
-    `closest_times`, shape (functions, NODES), with `closest_states`, shape (functions, NODES, width), the step that has
+    `closest_times`, shape (functions, nodes), with `closest_states`, shape (functions, nodes, width), the step that has
     it. `switch` tells where a force that jumps holds the motion.
     """
 
@@ -53,15 +54,16 @@ def make_watch(
     inputs: Floats,
     width: int,
     switch: Switch,
+    count: int = NODES,
 ) -> Watch:
     """The arrays to watch so many functions of a state with `width` components, beside the switching functions.
 
-    `cancelled` has shape (1,), `inputs` shape (inputs,).
+    `cancelled` has shape (1,), `inputs` shape (inputs,); each step is looked at in `count` places.
     """
-    nodes = 0.5 - 0.5 * np.cos(np.pi * np.arange(NODES) / (NODES - 1))
-    times, states = np.zeros(NODES), np.zeros((NODES, width))
-    values, least = np.zeros((NODES, functions)), np.full(functions, np.inf)
-    closest = np.zeros((functions, NODES)), np.zeros((functions, NODES, width))
+    nodes = 0.5 - 0.5 * np.cos(np.pi * np.arange(count) / (count - 1))
+    times, states = np.zeros(count), np.zeros((count, width))
+    values, least = np.zeros((count, functions)), np.full(functions, np.inf)
+    closest = np.zeros((functions, count)), np.zeros((functions, count, width))
     return Watch(cancelled, *addresses, functions, inputs, nodes, times, states, values, least, *closest, switch)
 
 

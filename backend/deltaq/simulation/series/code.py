@@ -1,0 +1,181 @@
+"""Functions in LLVM's language, written as text and compiled in milliseconds.
+
+Numbers are doubles, or vectors of them where several motions run side by side: each operation then does the same for
+all. Products and sums are joined into one rounding only where it says so, by every writer alike, so that all kinds of
+code give the same digits.
+"""
+
+from __future__ import annotations
+
+import ctypes
+import ctypes.util
+from dataclasses import dataclass, field
+from functools import cache
+from threading import Lock
+from typing import Any
+
+import llvmlite.binding as llvm
+
+LIBRARY = "deltaq.math."  # before the names of functions of the C library
+QUICK, THOROUGH = 0, 2  # LLVM's effort: code that is there twice as soon, or that runs in a fifth of the time
+_LOCK = Lock()
+
+
+@dataclass
+class Code:
+    """A function that is being written, line by line, in numbers of `lanes` doubles."""
+
+    lanes: int
+    lines: list[str] = field(default_factory=list)
+    declared: set[str] = field(default_factory=set)
+    prefix: str = "v"  # of names, where two write the same function
+    _count: int = 0
+
+    @property
+    def kind(self) -> str:
+        """The type of a number."""
+        return "double" if self.lanes == 1 else f"<{self.lanes} x double>"
+
+    def new(self, instruction: str) -> str:
+        """The result of an instruction."""
+        self._count += 1
+        name = f"%{self.prefix}{self._count}"
+        self.lines.append(f"  {name} = {instruction}")
+        return name
+
+    def do(self, instruction: str) -> None:
+        """An instruction without a result."""
+        self.lines.append(f"  {instruction}")
+
+    def label(self, name: str) -> None:
+        """A block begins."""
+        self.lines.append(f"{name}:")
+
+    def number(self, value: float) -> str:
+        """A constant, the same in all lanes."""
+        bits = ctypes.c_uint64.from_buffer(ctypes.c_double(value)).value
+        one = f"0x{bits:016X}"
+        return one if self.lanes == 1 else f"<{', '.join(['double ' + one] * self.lanes)}>"
+
+    def add(self, a: str, b: str) -> str:
+        """a + b."""
+        return self.new(f"fadd {self.kind} {a}, {b}")
+
+    def subtract(self, a: str, b: str) -> str:
+        """a − b."""
+        return self.new(f"fsub {self.kind} {a}, {b}")
+
+    def multiply(self, a: str, b: str) -> str:
+        """a b."""
+        return self.new(f"fmul {self.kind} {a}, {b}")
+
+    def divide(self, a: str, b: str) -> str:
+        """a / b."""
+        return self.new(f"fdiv {self.kind} {a}, {b}")
+
+    def negative(self, a: str) -> str:
+        """−a."""
+        return self.new(f"fneg {self.kind} {a}")
+
+    def multiply_add(self, a: str, b: str, c: str) -> str:
+        """a b + c, rounded once where the processor can, else twice."""
+        if not host().has_fma:
+            return self.add(self.multiply(a, b), c)
+        return self._intrinsic("fma", a, b, c)
+
+    def root(self, a: str) -> str:
+        """√a."""
+        return self._intrinsic("sqrt", a)
+
+    def _intrinsic(self, name: str, *arguments: str) -> str:
+        suffix = "f64" if self.lanes == 1 else f"v{self.lanes}f64"
+        kinds = ", ".join([self.kind] * len(arguments))
+        self.declared.add(f"declare {self.kind} @llvm.{name}.{suffix}({kinds})")
+        given = ", ".join(f"{self.kind} {each}" for each in arguments)
+        return self.new(f"call {self.kind} @llvm.{name}.{suffix}({given})")
+
+    def function(self, name: str, *arguments: str) -> str:
+        """A function of the C library, lane by lane."""
+        self.declared.add(f'declare double @"{LIBRARY}{name}"({", ".join(["double"] * len(arguments))})')
+        if self.lanes == 1:
+            given = ", ".join(f"double {each}" for each in arguments)
+            return self.new(f'call double @"{LIBRARY}{name}"({given})')
+        found = "poison"
+        for lane in range(self.lanes):
+            parts = [self.new(f"extractelement {self.kind} {each}, i32 {lane}") for each in arguments]
+            given = ", ".join(f"double {each}" for each in parts)
+            one = self.new(f'call double @"{LIBRARY}{name}"({given})')
+            found = self.new(f"insertelement {self.kind} {found}, double {one}, i32 {lane}")
+        return found
+
+    def is_true(self, comparison: str, a: str) -> str:
+        """Whether a `comparison` (ogt, oge, olt, ole) 0 holds, lane by lane."""
+        return self.new(f"fcmp {comparison} {self.kind} {a}, {self.number(0.0)}")
+
+    def select(self, condition: str, a: str, b: str) -> str:
+        """a where the condition holds, else b."""
+        truth = "i1" if self.lanes == 1 else f"<{self.lanes} x i1>"
+        return self.new(f"select {truth} {condition}, {self.kind} {a}, {self.kind} {b}")
+
+    def at(self, base: str, place: str | int) -> str:
+        """The address of number `place` behind an address."""
+        return self.new(f"getelementptr inbounds {self.kind}, ptr {base}, i64 {place}")
+
+    def load(self, base: str, place: str | int) -> str:
+        """The number at a place behind an address."""
+        return self.new(f"load {self.kind}, ptr {self.at(base, place)}, align 8")
+
+    def store(self, value: str, base: str, place: str | int) -> None:
+        """Keeps a number at a place behind an address."""
+        self.do(f"store {self.kind} {value}, ptr {self.at(base, place)}, align 8")
+
+
+@dataclass(frozen=True)
+class Host:
+    """The processor that code is written for."""
+
+    name: str
+    features: str
+    has_fma: bool
+    width: int  # doubles in one of its vectors
+
+    def machine(self, effort: int) -> Any:
+        """What writes code for it; each function needs its own."""
+        target = llvm.Target.from_default_triple()
+        return target.create_target_machine(cpu=self.name, features=self.features, opt=effort, jit=True)
+
+
+@cache
+def host() -> Host:
+    """This processor, with the C library's functions made known to the compiler."""
+    llvm.initialize_native_target()
+    llvm.initialize_native_asmprinter()
+    features = llvm.get_host_cpu_features()
+    library = ctypes.CDLL(ctypes.util.find_library("m"))
+    names = ("exp", "log", "sin", "cos", "tan", "asin", "acos", "atan", "sinh", "cosh", "tanh")
+    for name in (*names, "asinh", "acosh", "atanh", "pow", "atan2"):
+        address = ctypes.cast(getattr(library, name), ctypes.c_void_p).value
+        llvm.add_symbol(LIBRARY + name, address)
+    is_arm = llvm.get_default_triple().startswith(("aarch64", "arm64"))
+    wide = 8 if features.get("avx512f") else 4 if features.get("avx2") else 2
+    return Host(llvm.get_host_cpu_name(), features.flatten(), bool(features.get("fma")) or is_arm, wide)
+
+
+@dataclass(frozen=True)
+class MachineCode:
+    """A compiled function; its address is valid as long as this object lives."""
+
+    engine: Any
+    address: int
+
+
+def compiled(name: str, arguments: str, code: Code, effort: int) -> MachineCode:
+    """Machine code of a function `void name(arguments)`."""
+    lines = [*sorted(code.declared), f"define void @{name}({arguments}) #0 {{", *code.lines, "}"]
+    text = "\n".join([*lines, 'attributes #0 = { nounwind "no-builtins" }', ""])
+    with _LOCK:
+        module = llvm.parse_assembly(text)
+        module.triple = llvm.get_default_triple()
+        engine = llvm.create_mcjit_compiler(module, host().machine(effort))
+        engine.finalize_object()
+    return MachineCode(engine, engine.get_function_address(name))

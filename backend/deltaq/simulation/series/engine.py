@@ -1,0 +1,13 @@
+"""Which code a model's series run in: code that is compiled quickly at first, faster code in the long run."""
+
+from __future__ import annotations
+
+from ...model.model import Model
+from .code import QUICK, THOROUGH
+from .generated import Jet, jet_of
+
+
+def jet_of_model(model: Model, *, is_long: bool, lanes: int = 1) -> Jet:
+    """The code for a model's series; made once for each effort, and the thorough one serves all once it is there."""
+    effort = THOROUGH if is_long or model.has(("jet", lanes, THOROUGH)) else QUICK
+    return model.kept(("jet", lanes, effort), lambda: jet_of(model.recurrences, lanes, effort))

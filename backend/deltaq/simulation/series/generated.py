@@ -1,0 +1,337 @@
+"""Recurrences as code of their own: one operation after the other, and the sums of all of them in one loop.
+
+A step's coefficients are found order by order. All sums Σ uⱼ vₖ₋ⱼ of an order k need lower orders only, so that those
+of different operations are computed side by side in the lanes of vectors; their operands stand side by side in memory,
+wherever they are needed. Where several motions run side by side, the lanes are theirs.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from typing import Protocol
+
+from ...model import recurrences as r
+from ...model.recurrences import Recurrences, Series, Term
+from ..kernels.taylor import MOST_ORDERS
+from .code import THOROUGH, Code, MachineCode, compiled, host
+from .operations import COMPARISONS, Operands, first, kept, later
+
+TOGETHER = 8  # sums in one loop
+
+
+class Sums(Protocol):
+    """How the sums of an order are computed, and where the coefficients that they need are kept."""
+
+    @property
+    def size(self) -> int:
+        """Doubles of work space."""
+
+    @property
+    def terms(self) -> Sequence[Term]:
+        """All sums, each once."""
+
+    def keep(self, code: Code, series: Series, order: str, value: str) -> None:
+        """Keeps a coefficient wherever a sum will need it."""
+
+    def write(self, code: Code, order: str, begin: str) -> dict[Term, str]:
+        """The sums of an order; `begin` is the name of the block in which this is written."""
+
+
+@dataclass(frozen=True)
+class OfOperations:
+    """Sums of one motion, those of several operations in the lanes of a vector."""
+
+    terms: tuple[Term, ...]
+    width: int
+
+    @property
+    def groups(self) -> int:
+        return -(-len(self.terms) // self.width)
+
+    @property
+    def size(self) -> int:
+        return 2 * self.groups * MOST_ORDERS * self.width
+
+    def _base(self, group: int, side: int) -> int:
+        return (2 * group + side) * MOST_ORDERS * self.width
+
+    def keep(self, code: Code, series: Series, order: str, value: str) -> None:
+        row = code.new(f"mul i64 {order}, {self.width}")
+        for number, term in enumerate(self.terms):
+            for side in (0, 1):
+                if term[side] == series:
+                    place = self._base(number // self.width, side) + number % self.width
+                    code.store(value, "%work", code.new(f"add i64 {row}, {place}"))
+
+    def write(self, code: Code, order: str, begin: str) -> dict[Term, str]:
+        vector = Code(self.width, code.lines, code.declared, "w")
+        bases = [[code.at("%work", self._base(g, side)) for side in (0, 1)] for g in range(self.groups)]
+        found = _loop(vector, order, begin, bases)
+        return {
+            term: code.new(f"extractelement {vector.kind} {found[number // self.width]}, i32 {number % self.width}")
+            for number, term in enumerate(self.terms)
+        }
+
+
+@dataclass(frozen=True)
+class OfMotions:
+    """Sums of several motions, which have the lanes of a vector."""
+
+    terms: tuple[Term, ...]
+    lanes: int
+
+    @property
+    def _series(self) -> list[Series]:
+        return list(dict.fromkeys(series for term in self.terms for series in term))
+
+    @property
+    def size(self) -> int:
+        return len(self._series) * MOST_ORDERS * self.lanes
+
+    def keep(self, code: Code, series: Series, order: str, value: str) -> None:
+        if series in self._series:
+            code.store(value, code.at("%work", self._series.index(series) * MOST_ORDERS), order)
+
+    def write(self, code: Code, order: str, begin: str) -> dict[Term, str]:
+        found: dict[Term, str] = {}
+        for start in range(0, len(self.terms), TOGETHER):
+            some = self.terms[start : start + TOGETHER]
+            bases = [[code.at("%work", self._series.index(s) * MOST_ORDERS) for s in term] for term in some]
+            found |= dict(zip(some, _loop(code, order, begin, bases, f"{start}"), strict=True))
+            begin = f"summed{start}"
+        return found
+
+
+def _loop(code: Code, order: str, begin: str, bases: Sequence[Sequence[str]], name: str = "") -> list[str]:
+    """Σ uⱼ vₖ₋ⱼ, 0 < j < k, for pairs of addresses of u₀ and v₀; ends in the block `summed` + name."""
+    zero, start = code.number(0.0), f"sum{name}"
+    sums = [f"%s{name}.{i}" for i in range(len(bases))]
+    nexts = [f"%n{name}.{i}" for i in range(len(bases))]
+    code.do(f"br label %{start}")
+    code.label(start)
+    code.do(f"%j{name} = phi i64 [ 1, %{begin} ], [ %jn{name}, %body{name} ]")
+    for one, following in zip(sums, nexts, strict=True):
+        code.do(f"{one} = phi {code.kind} [ {zero}, %{begin} ], [ {following}, %body{name} ]")
+    more = code.new(f"icmp slt i64 %j{name}, {order}")
+    code.do(f"br i1 {more}, label %body{name}, label %summed{name}")
+    code.label(f"body{name}")
+    back = code.new(f"sub i64 {order}, %j{name}")
+    for one, following, (u, v) in zip(sums, nexts, bases, strict=True):
+        found = code.multiply_add(code.load(u, f"%j{name}"), code.load(v, back), one)
+        code.do(f"{following} = bitcast {code.kind} {found} to {code.kind}")
+    code.do(f"%jn{name} = add i64 %j{name}, 1")
+    code.do(f"br label %{start}")
+    code.label(f"summed{name}")
+    return sums
+
+
+@dataclass(frozen=True)
+class Shape:
+    """What a jet reads and writes, in numbers of `lanes` doubles.
+
+    Given are the unit of time H, the state, t and the constants. A row of coefficients in that unit has the state, the
+    arguments of conditions, and (in row 0 alone) the pivots with the diagonal entries that they are left of.
+    """
+
+    recurrences: Recurrences
+    lanes: int = 1
+
+    @property
+    def width(self) -> int:
+        """Of a state."""
+        return 2 * self.recurrences.degrees + (self.recurrences.power is not None)
+
+    @property
+    def components(self) -> int:
+        """Of a row of coefficients."""
+        return self.width + len(self.recurrences.conditions) + 2 * len(self.recurrences.pivots)
+
+    @property
+    def first_constant(self) -> int:
+        """Where the constants begin in what is given."""
+        return self.width + 2
+
+
+@dataclass(frozen=True)
+class Jet:
+    """Code that finds the Taylor coefficients of a motion: void jet(out, given, work, program).
+
+    `program` begins with the order, `work` has that many doubles.
+    """
+
+    code: MachineCode
+    shape: Shape
+    work: int
+    program: tuple[int, ...] = ()
+
+
+def jet_of(recurrences: Recurrences, lanes: int = 1, effort: int = THOROUGH) -> Jet:
+    """The code of some recurrences, for one motion or for so many side by side; any effort gives the same digits."""
+    shape = Shape(recurrences, lanes)
+    every = (t for i, each in enumerate(recurrences.operations) for t in each.sums(recurrences.inputs + i))
+    terms = tuple(dict.fromkeys(every))
+    sums: Sums = OfOperations(terms, 8 if host().width >= 8 else 4) if lanes == 1 else OfMotions(terms, lanes)
+    writer = _Writer(shape, sums, Code(lanes))
+    writer.write()
+    return Jet(
+        compiled("jet", "ptr %out, ptr %given, ptr noalias %work, ptr %program", writer.code, effort), shape, sums.size
+    )
+
+
+@dataclass(frozen=True)
+class _Writer:
+    """Writes a jet: the first coefficients, then a loop over the orders."""
+
+    shape: Shape
+    sums: Sums
+    code: Code
+
+    def write(self) -> None:
+        """The whole function."""
+        r_, code, shape = self.shape.recurrences, self.code, self.shape
+        code.label("entry")
+        code.do("%last = load i64, ptr %program")
+        unit, constants = code.load("%given", 0), self._constants()
+        state = [code.load("%given", 1 + d) for d in range(shape.width)]
+        time = code.load("%given", 1 + shape.width)
+        inputs = [*state[: 2 * r_.degrees], time]
+        begin, kept_, conditions = self._first(inputs, constants)
+        self._out("0", state, begin)
+        for number, place in enumerate(place for pair in r_.pivots for place in pair):
+            code.store(begin[place], "%out", shape.width + len(r_.conditions) + number)
+        following = self._integrated(state, begin, unit, code.number(1.0))
+        self._out_state("1", following)
+        code.do("br label %order")
+        code.label("order")
+        code.do("%k = phi i64 [ 1, %entry ], [ %kn, %chain ]")
+        now = [f"%x{d}" for d in range(shape.width)]
+        for d, value in enumerate(following):
+            code.do(f"{now[d]} = phi {code.kind} [ {value}, %entry ], [ %xn{d}, %chain ]")
+        code.do(f"%t = phi {code.kind} [ {unit}, %entry ], [ {code.number(0.0)}, %chain ]")
+        self._order([*now[: 2 * r_.degrees], "%t"], now, begin, kept_, conditions, constants, unit)
+
+    def _constants(self) -> list[str]:
+        return [
+            self.code.load("%given", self.shape.first_constant + i) for i in range(len(self.shape.recurrences.kept))
+        ]
+
+    def _first(self, inputs: list[str], constants: list[str]) -> tuple[list[str], list[str], list[str]]:
+        """The coefficients of order 0, what operations keep of them, and which conditions hold."""
+        r_, code = self.shape.recurrences, self.code
+        values = list(inputs)
+        truths: dict[int, str] = {}
+        extras: list[str] = []
+        for operation in r_.operations:
+            truth = ""
+            if operation.code == r.CHOICE:
+                if operation.a not in truths:
+                    condition = r_.conditions[operation.a]
+                    truths[operation.a] = code.is_true(COMPARISONS[condition.kind], values[condition.argument])
+                truth = truths[operation.a]
+            a0, b0, c0 = (values[p] if p < len(values) else "" for p in (operation.a, operation.b, operation.c))
+            name = r.FUNCTIONS[operation.c] if operation.code in r.WITH_FUNCTION else ""
+            x = Operands(a=truth, a0=a0, b0=b0, c0=c0, constant=self._constant(operation, constants))
+            values.append(first(code, operation.code, x, name))
+        for place, operation in enumerate(r_.operations, len(inputs)):
+            extras.append(kept(code, operation.code, self._of_first(operation, values, place)))
+        return values, extras, [truths.get(i, "") for i in range(len(r_.conditions))]
+
+    def _of_first(self, operation: r.Operation, values: list[str], place: int) -> Operands:
+        a0, b0, c0 = (values[p] if p < len(values) else "" for p in (operation.a, operation.b, operation.c))
+        return Operands(a0=a0, b0=b0, c0=c0, y0=values[place])
+
+    @staticmethod
+    def _constant(operation: r.Operation, constants: list[str]) -> str:
+        return constants[operation.constant] if operation.code in r.WITH_CONSTANT else ""
+
+    def _order(
+        self,
+        inputs: list[str],
+        state: list[str],
+        begin: list[str],
+        extras: list[str],
+        conditions: list[str],
+        constants: list[str],
+        unit: str,
+    ) -> None:
+        """The block of order k: sums, operations, and the next coefficients of the state."""
+        r_, code = self.shape.recurrences, self.code
+        sums = self.sums.write(code, "%k", "order")
+        code.do("br label %chain")
+        code.label("chain")
+        order = self._spread(code.new("sitofp i64 %k to double"))
+        inverse = code.divide(code.number(1.0), order)
+        values = list(inputs)
+        for place, value in enumerate(inputs):
+            self._keep(place, value, order)
+        for place, operation in enumerate(r_.operations, len(inputs)):
+            a, b, c = (values[p] if p < len(values) else "" for p in (operation.a, operation.b, operation.c))
+            known = replace(
+                self._of_first(operation, begin, place),
+                a=conditions[operation.a] if operation.code == r.CHOICE else a,
+                b=b,
+                c=c,
+                extra=extras[place - len(inputs)],
+                constant=self._constant(operation, constants),
+            )
+            x = replace(known, sums=tuple(sums[t] for t in operation.sums(place)), order=order, inverse=inverse)
+            values.append(later(code, operation.code, x))
+            self._keep(place, values[-1], order)
+        self._end(state, values, unit)
+
+    def _end(self, state: list[str], values: list[str], unit: str) -> None:
+        """What an order leaves: coefficients of the state and of conditions' arguments; and the next order, if any."""
+        code = self.code
+        code.do("%kn = add i64 %k, 1")
+        next_order = self._spread(code.new("sitofp i64 %kn to double"))
+        following = self._integrated(state, values, unit, next_order)
+        self._out_conditions("%k", values)
+        self._out_state("%kn", following)
+        for d, value in enumerate(following):
+            code.do(f"%xn{d} = bitcast {code.kind} {value} to {code.kind}")
+        code.do(f"br i1 {code.new('icmp slt i64 %kn, %last')}, label %order, label %end")
+        code.label("end")
+        code.do("ret void")
+
+    def _keep(self, place: int, value: str, order: str) -> None:
+        """Keeps a coefficient for later sums, and k times it."""
+        needed = {series for term in self.sums.terms for series in term}
+        if (place, False) in needed:
+            self.sums.keep(self.code, (place, False), "%k", value)
+        if (place, True) in needed:
+            self.sums.keep(self.code, (place, True), "%k", self.code.multiply(order, value))
+
+    def _spread(self, number: str) -> str:
+        """One double in all lanes."""
+        code = self.code
+        if code.lanes == 1:
+            return number
+        one = code.new(f"insertelement {code.kind} poison, double {number}, i32 0")
+        return code.new(f"shufflevector {code.kind} {one}, {code.kind} poison, <{code.lanes} x i32> zeroinitializer")
+
+    def _integrated(self, state: list[str], values: list[str], unit: str, next_order: str) -> list[str]:
+        """The next coefficients of the state: those of its derivative times H / (k + 1)."""
+        r_, code = self.shape.recurrences, self.code
+        share = code.divide(unit, next_order)
+        rates = [*state[r_.degrees : 2 * r_.degrees], *(values[place] for place in r_.accelerations)]
+        rates += [] if r_.power is None else [values[r_.power]]
+        return [code.multiply(rate, share) for rate in rates]
+
+    def _out(self, order: str, state: list[str], values: list[str]) -> None:
+        self._out_state(order, state)
+        self._out_conditions(order, values)
+
+    def _out_state(self, order: str, state: list[str]) -> None:
+        row = self.code.new(f"mul i64 {order}, {self.shape.components}")
+        base = self.code.at("%out", row)
+        for d, value in enumerate(state):
+            self.code.store(value, base, d)
+
+    def _out_conditions(self, order: str, values: list[str]) -> None:
+        r_ = self.shape.recurrences
+        if not r_.conditions:
+            return
+        base = self.code.at("%out", self.code.new(f"mul i64 {order}, {self.shape.components}"))
+        for number, condition in enumerate(r_.conditions):
+            self.code.store(values[condition.argument], base, self.shape.width + number)

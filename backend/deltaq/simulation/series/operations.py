@@ -1,0 +1,154 @@
+"""What each operation does: its first coefficient, and the coefficient of order k from lower ones.
+
+With y = a b, say, yₖ = a₀ bₖ + aₖ b₀ + Σ aⱼ bₖ₋ⱼ, 0 < j < k; the sum is computed before by whoever asks. `Operands` is
+how the coefficients that are needed are called in the code that is written.
+Source: À. Jorba, M. Zou, Experimental Mathematics 14 (2005) 99–117, proposition 2.1.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from types import MappingProxyType
+
+from ...model import recurrences as r
+from ...model import tape as t
+from .code import Code
+
+COMPARISONS: Mapping[int, str] = MappingProxyType(
+    {t.POSITIVE: "ogt", t.NOT_NEGATIVE: "oge", t.NEGATIVE: "olt", t.NOT_POSITIVE: "ole"}
+)
+
+
+@dataclass(frozen=True)
+class Operands:
+    """Coefficients of order k of a, b and c (`a`, `b`, `c`), and of order 0 of these and of the result (`a0` … `y0`).
+
+    `extra` is what the operation keeps from order 0 on, `sums` the sums that it needs, `order` and `inverse` are k and
+    1/k. `constant` is its constant.
+    """
+
+    a: str = ""
+    b: str = ""
+    c: str = ""
+    a0: str = ""
+    b0: str = ""
+    c0: str = ""
+    y0: str = ""
+    extra: str = ""
+    constant: str = ""
+    sums: tuple[str, ...] = ()
+    order: str = ""
+    inverse: str = ""
+
+
+def first(code: Code, kind: int, x: Operands, function: str) -> str:
+    """y₀; `function` is the name of the function that y₀ is of a₀, where it is one."""
+    simple: Mapping[int, Callable[[], str]] = {
+        r.CONSTANT: lambda: x.constant,
+        r.SHIFT: lambda: code.add(x.a0, x.constant),
+        r.SCALE: lambda: code.multiply(x.constant, x.a0),
+        r.ADD: lambda: code.add(x.a0, x.b0),
+        r.SUBTRACT: lambda: code.subtract(x.a0, x.b0),
+        r.MULTIPLY: lambda: code.multiply(x.a0, x.b0),
+        r.SQUARE: lambda: code.multiply(x.a0, x.a0),
+        r.DIVIDE: lambda: code.divide(x.a0, x.b0),
+        r.RECIPROCAL: lambda: code.divide(x.constant, x.b0),
+        r.ROOT: lambda: code.root(x.a0),
+        r.POWER: lambda: code.function("pow", x.a0, x.constant),
+        r.ANGLE: lambda: code.function("atan2", x.a0, x.b0),
+        r.CHOICE: lambda: code.select(x.a, x.b0, x.c0),
+    }
+    return simple[kind]() if kind in simple else code.function(function, x.a0)
+
+
+def kept(code: Code, kind: int, x: Operands) -> str:
+    """What is the same in all orders: the reciprocal of what is divided by, or 2 a₀; 0 where there is nothing."""
+    one = code.number(1.0)
+    found: Mapping[int, Callable[[], str]] = {
+        r.SQUARE: lambda: code.add(x.a0, x.a0),
+        r.DIVIDE: lambda: code.divide(one, x.b0),
+        r.RECIPROCAL: lambda: code.divide(one, x.b0),
+        r.ROOT: lambda: code.divide(code.number(0.5), x.y0),
+        r.POWER: lambda: code.divide(one, x.a0),
+        r.QUOTIENT: lambda: code.divide(one, x.b0),
+        r.NEGATIVE_QUOTIENT: lambda: code.divide(one, x.b0),
+        r.ANGLE: lambda: code.divide(one, x.c0),
+    }
+    return found[kind]() if kind in found else code.number(0.0)
+
+
+def later(code: Code, kind: int, x: Operands) -> str:
+    """yₖ for k ≥ 1."""
+    return _LATER[kind](code, x)
+
+
+def _multiply(code: Code, x: Operands) -> str:
+    return code.multiply_add(x.a0, x.b, code.multiply_add(x.a, x.b0, x.sums[0]))
+
+
+def _divide(code: Code, x: Operands) -> str:
+    """a = y b solved for yₖ."""
+    rest = code.subtract(x.a, x.sums[0])
+    return code.multiply(code.multiply_add(code.negative(x.y0), x.b, rest), x.extra)
+
+
+def _reciprocal(code: Code, x: Operands) -> str:
+    return code.negative(code.multiply(code.multiply_add(x.y0, x.b, x.sums[0]), x.extra))
+
+
+def _root(code: Code, x: Operands) -> str:
+    """a = y² solved for yₖ."""
+    return code.multiply(code.subtract(x.a, x.sums[0]), x.extra)
+
+
+def _power(code: Code, x: Operands) -> str:
+    """a y′ = γ y a′ solved for yₖ."""
+    slope = code.multiply_add(code.multiply(x.order, x.a), x.y0, x.sums[0])
+    rest = code.subtract(code.multiply(x.constant, slope), x.sums[1])
+    return code.multiply(code.multiply(rest, x.extra), x.inverse)
+
+
+def _rise(code: Code, x: Operands) -> str:
+    """y′ = b a′."""
+    return code.multiply_add(x.a, x.b0, code.multiply(x.sums[0], x.inverse))
+
+
+def _quotient(code: Code, x: Operands) -> str:
+    """b y′ = a′ solved for yₖ."""
+    return code.multiply(code.multiply_add(code.negative(x.sums[0]), x.inverse, x.a), x.extra)
+
+
+def _negative_quotient(code: Code, x: Operands) -> str:
+    """b y′ = −a′."""
+    return code.negative(code.multiply(code.multiply_add(x.sums[0], x.inverse, x.a), x.extra))
+
+
+def _angle(code: Code, x: Operands) -> str:
+    """c y′ = b a′ − a b′."""
+    across = code.subtract(code.subtract(x.sums[0], x.sums[1]), x.sums[2])
+    ends = code.multiply_add(x.a, x.b0, code.multiply(across, x.inverse))
+    return code.multiply(code.multiply_add(code.negative(x.b), x.a0, ends), x.extra)
+
+
+_LATER: Mapping[int, Callable[[Code, Operands], str]] = MappingProxyType(
+    {
+        r.CONSTANT: lambda code, _x: code.number(0.0),
+        r.SHIFT: lambda _code, x: x.a,
+        r.SCALE: lambda code, x: code.multiply(x.constant, x.a),
+        r.ADD: lambda code, x: code.add(x.a, x.b),
+        r.SUBTRACT: lambda code, x: code.subtract(x.a, x.b),
+        r.MULTIPLY: _multiply,
+        r.SQUARE: lambda code, x: code.multiply_add(x.extra, x.a, x.sums[0]),
+        r.DIVIDE: _divide,
+        r.RECIPROCAL: _reciprocal,
+        r.ROOT: _root,
+        r.POWER: _power,
+        r.RISE: _rise,
+        r.FALL: lambda code, x: code.negative(_rise(code, x)),
+        r.QUOTIENT: _quotient,
+        r.NEGATIVE_QUOTIENT: _negative_quotient,
+        r.ANGLE: _angle,
+        r.CHOICE: lambda code, x: code.select(x.a, x.b, x.c),
+    }
+)
