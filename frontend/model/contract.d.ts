@@ -64,6 +64,26 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/v1/ensembles": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Simulate a scene with many initial values or parameters
+         * @description Simulate a scene with many initial values or parameters. Each run has its own status and error.
+         */
+        post: operations["run_ensemble"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/v1/experiments": {
         parameters: {
             query?: never;
@@ -2197,6 +2217,32 @@ export interface components {
             [key: string]: unknown;
         };
         /**
+         * Drawn
+         * @description Values drawn from a normal distribution; the same seed draws the same ones.
+         */
+        Drawn: {
+            /**
+             * Normal
+             * @description mean and standard deviation
+             * @example [
+             *       1,
+             *       0.01
+             *     ]
+             */
+            normal: number[];
+            /**
+             * Count
+             * @description how many
+             * @example 100
+             */
+            count: number;
+            /**
+             * Seed
+             * @description of the random numbers; each quantity has its own
+             */
+            seed?: number;
+        };
+        /**
          * DrawnElement
          * @description One primitive of the drawing; its kind decides which fields it has.
          */
@@ -2513,6 +2559,203 @@ export interface components {
             tolerance?: number | null;
         };
         /**
+         * EnsembleAnswer
+         * @description All runs in the order of the values; of a grid the last quantity changes fastest.
+         */
+        EnsembleAnswer: {
+            /** Runs */
+            runs: number;
+            t: components["schemas"]["Column"];
+            /**
+             * Quantities
+             * @description the values of what varies, by run
+             */
+            quantities: {
+                [key: string]: components["schemas"]["Column"];
+            };
+            /**
+             * Status
+             * @description of each run
+             * @example [
+             *       "ok",
+             *       "ok"
+             *     ]
+             */
+            status: ("ok" | "event" | "stopped" | "cancelled" | "step_limit" | "singular_mass_matrix" | "diverged" | "newton_failed" | "stiff" | "unresolved" | "step_blind" | "horizon_reached" | "tolerance_missed" | "guide_jumps" | "singular_constraints")[];
+            /**
+             * Reasons
+             * @description what each status that occurs means, and what to do
+             */
+            reasons: {
+                [key: string]: string;
+            };
+            /**
+             * Coordinates
+             * @description by coordinate, a column for each run
+             */
+            coordinates?: {
+                [key: string]: components["schemas"]["Column"][];
+            } | null;
+            /** @description largest estimated error of each run: absolute below 1, relative above */
+            error: components["schemas"]["Column"];
+            /**
+             * Steps
+             * @description of each run
+             */
+            steps: number[];
+            /**
+             * Mean
+             * @description over the runs, by coordinate
+             */
+            mean?: {
+                [key: string]: components["schemas"]["Column"];
+            } | null;
+            quantiles?: components["schemas"]["Quantiles"] | null;
+            /**
+             * Columns
+             * @default numbers
+             * @enum {string}
+             */
+            columns: "numbers" | "base64";
+            /**
+             * Wall Time
+             * @description seconds
+             */
+            wall_time: number;
+        };
+        /**
+         * EnsembleRequest
+         * @description A scene, and which of its initial values and parameters take which values.
+         * @example {
+         *       "samples": 3,
+         *       "scene": "pendulum",
+         *       "t_end": 2,
+         *       "vary": {
+         *         "initial.phi.value": [
+         *           0.5,
+         *           1
+         *         ],
+         *         "parameters.l": {
+         *           "count": 2,
+         *           "from": 0.5,
+         *           "to": 1
+         *         }
+         *       }
+         *     }
+         * @example {
+         *       "runs": false,
+         *       "samples": 3,
+         *       "scene": "double-pendulum",
+         *       "statistics": [
+         *         "mean",
+         *         "quantiles"
+         *       ],
+         *       "t_end": 2,
+         *       "vary": {
+         *         "initial.phi1.value": {
+         *           "count": 40,
+         *           "normal": [
+         *             1,
+         *             0.01
+         *           ],
+         *           "seed": 7
+         *         }
+         *       }
+         *     }
+         */
+        EnsembleRequest: {
+            /**
+             * @description a built-in scene by its id, or a scene document of format 1
+             * @example elastic-pendulum
+             */
+            scene: components["schemas"]["Scene"];
+            /**
+             * Guides
+             * @description coordinates to be made functions of time
+             */
+            guides?: components["schemas"]["GuideChange"][];
+            /**
+             * Freeze
+             * @description coordinates to be held constant
+             * @example []
+             */
+            freeze?: string[];
+            /**
+             * Parameters
+             * @description values of parameters
+             * @example {
+             *       "l": 0.8
+             *     }
+             */
+            parameters?: components["schemas"]["EnsembleRequestParameters"];
+            /**
+             * Initial
+             * @description where the motion begins, by coordinate
+             * @example {
+             *       "phi": {
+             *         "value": 0.5
+             *       }
+             *     }
+             */
+            initial?: components["schemas"]["EnsembleRequestInitial"];
+            /**
+             * T End
+             * @description seconds
+             * @example 10
+             */
+            t_end: number;
+            /**
+             * Vary
+             * @description values by quantity: initial.NAME.value, initial.NAME.rate or parameters.NAME
+             * @example {
+             *       "initial.phi.value": {
+             *         "count": 5,
+             *         "from": 0.5,
+             *         "to": 1.5
+             *       }
+             *     }
+             */
+            vary: {
+                [key: string]: number[] | components["schemas"]["Evenly"] | components["schemas"]["Drawn"];
+            };
+            /**
+             * Combine
+             * @description every value with every other, or the first of each, the second of each …
+             */
+            combine?: components["schemas"]["EnsembleRequestCombine"];
+            /**
+             * Samples
+             * @description number of samples, evenly spaced, both ends included
+             */
+            samples?: number;
+            /**
+             * Tolerance
+             * @description wanted error of the coordinates
+             */
+            tolerance?: number;
+            /**
+             * Statistics
+             * @description over the runs that came so far: mean, or quantiles at 5, 25, 50, 75 and 95 %
+             * @example []
+             */
+            statistics?: ("mean" | "quantiles")[];
+            /**
+             * Runs
+             * @description whether the coordinates of every run are wanted
+             */
+            runs?: boolean;
+            /**
+             * Columns
+             * @description how arrays are written; base64: little-endian doubles
+             */
+            columns?: components["schemas"]["EnsembleRequestColumns"];
+            /**
+             * Lang
+             * @description language of the texts; else Accept-Language decides
+             */
+            lang?: ("de" | "en") | null;
+        };
+        /**
          * Equilibrium
          * @description A state of rest, and the small motions about it; frequencies in rad/s.
          */
@@ -2697,6 +2940,30 @@ export interface components {
              * @example x
              */
             function: string;
+        };
+        /**
+         * Evenly
+         * @description Values evenly spaced, both ends included.
+         */
+        Evenly: {
+            /**
+             * From
+             * @description the first
+             * @example 0.5
+             */
+            from: number;
+            /**
+             * To
+             * @description the last
+             * @example 1.5
+             */
+            to: number;
+            /**
+             * Count
+             * @description how many
+             * @example 11
+             */
+            count: number;
         };
         /**
          * EventAnswer
@@ -4899,6 +5166,30 @@ export interface components {
         ProofList: {
             /** Proofs */
             proofs: components["schemas"]["ProofEntry"][];
+        };
+        /**
+         * Quantiles
+         * @description At each sample, over the runs that reached it.
+         */
+        Quantiles: {
+            /**
+             * Levels
+             * @example [
+             *       0.05,
+             *       0.25,
+             *       0.5,
+             *       0.75,
+             *       0.95
+             *     ]
+             */
+            levels: number[];
+            /**
+             * Values
+             * @description by coordinate, a column for each level
+             */
+            values: {
+                [key: string]: components["schemas"]["Column"][];
+            };
         };
         /**
          * Quotient
@@ -7837,6 +8128,32 @@ export interface components {
          */
         DerivationRequestChapters: "all" | "equations" | "model" | "ready";
         /**
+         * EnsembleRequestParameters
+         * @default {}
+         */
+        EnsembleRequestParameters: {
+            [key: string]: number;
+        };
+        /**
+         * EnsembleRequestInitial
+         * @default {}
+         */
+        EnsembleRequestInitial: {
+            [key: string]: components["schemas"]["InitialValue"];
+        };
+        /**
+         * EnsembleRequestCombine
+         * @default grid
+         * @enum {string}
+         */
+        EnsembleRequestCombine: "grid" | "together";
+        /**
+         * EnsembleRequestColumns
+         * @default numbers
+         * @enum {string}
+         */
+        EnsembleRequestColumns: "numbers" | "base64";
+        /**
          * ChaosRequestParameters
          * @default {}
          */
@@ -8166,6 +8483,30 @@ export interface operations {
                 };
                 content: {
                     "application/json": components["schemas"]["DerivationAnswer"];
+                };
+            };
+        };
+    };
+    run_ensemble: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["EnsembleRequest"];
+            };
+        };
+        responses: {
+            /** @description the answer */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["EnsembleAnswer"];
                 };
             };
         };

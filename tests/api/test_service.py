@@ -146,6 +146,7 @@ async def test_openapi_describes_every_call(client: httpx.AsyncClient) -> None:
         "POST /assignments",
         "POST /practice",
         "POST /exports/{form}",
+        "POST /ensembles",
         *(f"POST /experiments/{name}" for name in experiment_ids()),
     }
     for path, methods in description["paths"].items():

@@ -17,7 +17,7 @@ from ..lab.library import get_experiment
 from ..mechanics.document import examine
 from ..mechanics.toml import read_toml
 from ..narration.catalog import text
-from ..narration.outcome import explained
+from ..narration.outcome import explained, outcomes_explained
 from ..narration.problems import described
 
 if TYPE_CHECKING:
@@ -54,6 +54,12 @@ def simulate(document: Document) -> Document:
     """A trajectory; why it ended, and what to do about it, said in the language asked for."""
     answer: Document = import_module("deltaq.simulation.service").run(document["request"])
     return answer | explained(answer, document["request"]["lang"])
+
+
+def ensemble(document: Document) -> Document:
+    """Many motions of a scene; what each status that occurs means, said in the language asked for."""
+    answer: Document = import_module("deltaq.simulation.ensemble_answer").run(document["request"])
+    return answer | outcomes_explained(answer.pop("outcomes"), document["request"]["lang"])
 
 
 def validate(document: Document) -> Document:

@@ -12,6 +12,8 @@ from pydantic_core import CoreSchema, PydanticCustomError, core_schema
 from ..vocabulary import Language
 from .document import SceneReference
 
+OF_KIND = "of kind "  # before the names of alternatives, which are no part of a place in a document
+
 
 class Request(BaseModel):
     """A request body: unknown fields are mistakes, numbers are numbers, and finite."""

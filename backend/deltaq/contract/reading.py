@@ -14,7 +14,7 @@ from typing import Any, TypeVar
 from pydantic import BaseModel, TypeAdapter, ValidationError
 
 from ..errors import MOST_PROBLEMS, Parameter, Problem, RequestError, escaped
-from .base import NotAbove, Request
+from .base import OF_KIND, NotAbove, Request
 
 R = TypeVar("R", bound=Request)
 T = TypeVar("T")
@@ -49,6 +49,8 @@ CODES: Mapping[str, str] = MappingProxyType(
         "too_short": "request-too-few",
         "request-scene-type": "request-scene-type",
         "request-step-and-tolerance": "request-step-and-tolerance",
+        "ensemble-unlike": "ensemble-unlike",
+        "ensemble-too-large": "ensemble-too-large",
         "request-outside": "request-outside",
         "request-not-text": "request-not-text",
         "request-not-number": "request-not-number",
@@ -63,7 +65,10 @@ SIDES = ("gt", "ge", "lt", "le")  # of a bound, as Pydantic calls them
 OUTSIDE = frozenset({"greater_than", "greater_than_equal", "less_than", "less_than_equal"})
 OF_FIELDS = frozenset({"missing-field", "unknown-field"})  # problems whose sentence names the field
 FILLING = frozenset(
-    {*SIDES, "min_length", "max_length", "expected", "value", "min", "max", "format"}
+    {
+        *(*SIDES, "min_length", "max_length", "expected", "value", "min", "max", "format"),
+        *("runs", "seconds", "most_runs", "most_seconds", "samples"),
+    }
 )  # what sentences speak of
 _QUOTED = re.compile(r"'([^']*)'")
 
@@ -116,7 +121,12 @@ def problems_of(findings: Iterable[Mapping[str, Any]]) -> Iterator[Problem]:
 
 def pointer(location: Location) -> str:
     """JSON pointer (RFC 6901) of a place in a document, as Pydantic tells it."""
-    return "".join(f"/{escaped(str(part))}" for part in location if part != "[key]")
+    return "".join(f"/{escaped(str(part))}" for part in location if not is_internal(part))
+
+
+def is_internal(part: int | str) -> bool:
+    """Whether a part of a location is Pydantic's own: no name or place in the document."""
+    return isinstance(part, str) and (part == "[key]" or part.startswith(OF_KIND))
 
 
 def _told(finding: Mapping[str, Any], model: type[BaseModel], document: Mapping[str, object]) -> Problem:

@@ -23,6 +23,15 @@ def explained(answer: Document, language: str) -> Document:
     return {**told, "choice": why, "event": event}
 
 
+def outcomes_explained(outcomes: Document, language: str) -> Document:
+    """`reasons`: for each status the sentences about it, of the first run that has it."""
+    reasons = {}
+    for status, (code, parameters) in outcomes.items():
+        told = (plain(text(language, f"statuses.{code}.{part}", **parameters)) for part in ("reason", "remedy"))
+        reasons[status] = " ".join(part for part in told if part)
+    return {"reasons": reasons}
+
+
 def missing(part: OptionalPart, reason: Missing, language: str) -> Document:
     """A part of a derivation that is not there, why, and what to do about it."""
     outcome = f"{part}-constrained" if reason == "constraints" else part

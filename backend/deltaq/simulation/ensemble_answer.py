@@ -1,0 +1,135 @@
+"""Answers to `POST /ensembles`: plain data in, plain data out."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from time import perf_counter
+
+import numpy as np
+
+from ..contract.ensemble import Drawn, EnsembleRequest, Evenly, Variation
+from ..contract.reading import read
+from ..errors import Problem as Mistake
+from ..errors import RequestError, escaped
+from ..mechanics.requests import begun_scene, inside
+from ..mechanics.scene import Scene
+from .answer import Document
+from .columns import WRITERS, Column
+from .ensemble import Ensemble, EnsembleMotion, run_ensemble
+from .problem import Floats
+from .rounding import rounded, short
+from .service import problem_of, require_no_event
+
+LEVELS = (0.05, 0.25, 0.5, 0.75, 0.95)
+
+
+@dataclass(frozen=True)
+class Varied:
+    """An ensemble with the values of what varies in it, `quantities` by name: each of shape (runs,)."""
+
+    ensemble: Ensemble
+    quantities: Mapping[str, Floats]
+
+
+def run(document: Mapping[str, object], report: Callable[[int], None] | None = None) -> Document:
+    """Runs what the request names. Raises InputError for what cannot be read; `report` hears how many runs are done."""
+    asked, start = read(EnsembleRequest, document), perf_counter()
+    scene = begun_scene(asked)
+    varied = varied_of(asked, scene)
+    found = run_ensemble(varied.ensemble, asked.tolerance, report=report)
+    return _answered(asked, scene, varied, found) | {"wall_time": perf_counter() - start}
+
+
+def varied_of(asked: EnsembleRequest, scene: Scene) -> Varied:
+    """The ensemble that a request means. Raises RequestError for a quantity that the scene does not have."""
+    with inside("/scene"):
+        problem = problem_of(scene, asked.t_end, asked.samples)
+        require_no_event(scene, problem)
+    if problem.is_constrained:
+        told = {"name": "POST /ensembles", "other": "POST /simulations"}
+        raise RequestError(Mistake("method-constraints", "/scene", parameters=told))
+    places = _places(scene)
+    unknown = [name for name in asked.vary if name not in places]
+    if unknown:
+        known = ", ".join(places)
+        missing = [
+            Mistake("ensemble-quantity", f"/vary/{escaped(n)}", parameters={"name": n[:80], "known": known})
+            for n in unknown
+        ]
+        raise RequestError(*missing)
+    columns = _combined([_values(one, i) for i, one in enumerate(asked.vary.values())], asked.combine)
+    count = len(columns[0])
+    table = np.repeat(np.array([*problem.values, *problem.rates, *problem.parameters])[None, :], count, axis=0)
+    for name, column in zip(asked.vary, columns, strict=True):
+        table[:, places[name]] = column
+    split = 2 * problem.degrees
+    ensemble = Ensemble(problem, np.ascontiguousarray(table[:, :split]), np.ascontiguousarray(table[:, split:]))
+    return Varied(ensemble, dict(zip(asked.vary, columns, strict=True)))
+
+
+def _places(scene: Scene) -> dict[str, int]:
+    """Where each quantity stands among values, rates and parameters."""
+    names = [
+        *(f"initial.{coordinate.name}.value" for coordinate in scene.free),
+        *(f"initial.{coordinate.name}.rate" for coordinate in scene.free),
+        *(f"parameters.{parameter.name}" for parameter in scene.parameters),
+    ]
+    return {name: place for place, name in enumerate(names)}
+
+
+def _values(variation: Variation, number: int) -> Floats:
+    """The values of one quantity, the `number`-th that varies: shape (count,)."""
+    if isinstance(variation, Evenly):
+        return np.linspace(variation.begin, variation.to, variation.count)
+    if isinstance(variation, Drawn):
+        mean, deviation = variation.normal
+        return np.random.default_rng([variation.seed, number]).normal(mean, abs(deviation), variation.count)
+    return np.array(variation, dtype=np.float64)
+
+
+def _combined(columns: list[Floats], how: str) -> list[Floats]:
+    if how == "together":
+        return columns
+    return [np.ascontiguousarray(grid.ravel()) for grid in np.meshgrid(*columns, indexing="ij")]
+
+
+def _answered(asked: EnsembleRequest, scene: Scene, varied: Varied, found: EnsembleMotion) -> Document:
+    written, names = WRITERS[asked.columns], [coordinate.name for coordinate in scene.free]
+    answer: Document = {
+        "runs": len(found.outcomes),
+        "t": written(found.times),
+        "quantities": {name: written(column) for name, column in varied.quantities.items()},
+        "status": [outcome.status for outcome in found.outcomes],
+        "outcomes": {outcome.status: (outcome.code, dict(outcome.parameters)) for outcome in found.outcomes[::-1]},
+        "error": written(np.array([short(worst) for worst in found.worst])),
+        "steps": found.steps.tolist(),
+        "columns": asked.columns,
+    }
+    if asked.runs:
+        values = [rounded(one, errors) for one, errors in zip(found.values, np.nan_to_num(found.errors), strict=True)]
+        answer["coordinates"] = {
+            name: [_reached(np.ascontiguousarray(one[:, i]), written) for one in values] for i, name in enumerate(names)
+        }
+    return answer | _statistics(asked, names, found)
+
+
+def _reached(values: Floats, written: Callable[[Floats], Column]) -> Column:
+    """A column as far as its run came."""
+    missing = np.isnan(values)
+    return written(values[: int(missing.argmax())] if missing.any() else values)
+
+
+def _statistics(asked: EnsembleRequest, names: list[str], found: EnsembleMotion) -> Document:
+    """Over the runs that reached a sample; a sample that none reached is left out, with all behind it."""
+    written, answer = WRITERS[asked.columns], Document()
+    reached = int(np.isfinite(found.values).any(axis=(0, 2)).sum())
+    values = found.values[:, :reached]
+    if "mean" in asked.statistics:
+        mean = np.nanmean(values, axis=0)
+        answer["mean"] = {name: written(np.ascontiguousarray(mean[:, i])) for i, name in enumerate(names)}
+    if "quantiles" in asked.statistics:
+        levels = np.nanquantile(values, LEVELS, axis=0)
+        columns = {name: [written(np.ascontiguousarray(row[:, i])) for row in levels] for i, name in enumerate(names)}
+        answer["quantiles"] = {"levels": list(LEVELS), "values": columns}
+    return answer

@@ -1,0 +1,139 @@
+"""Ensembles: each run is the motion that it would be alone, with its own status and error; and what is refused."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import pytest
+from tests.simulation.scenes import oscillator
+
+from deltaq.errors import Problem, RequestError
+from deltaq.mechanics.library import load_scene
+from deltaq.mechanics.writing import write_scene
+from deltaq.simulation.driver import simulate
+from deltaq.simulation.ensemble import Ensemble, run_ensemble
+from deltaq.simulation.ensemble_answer import run
+from deltaq.simulation.library import get_method
+from deltaq.simulation.problem import Problem as Motion
+from deltaq.simulation.service import problem_of
+
+
+def cloud(problem: Motion, count: int, seed: int = 3) -> Ensemble:
+    """Initial values and parameters scattered by a few percent."""
+    random = np.random.default_rng(seed)
+    start = problem.state[None, : 2 * problem.degrees] + 0.05 * random.normal(size=(count, 2 * problem.degrees))
+    numbers = np.array(problem.parameters) * random.uniform(0.95, 1.05, (count, len(problem.parameters)))
+    return Ensemble(problem, start, numbers)
+
+
+@pytest.mark.parametrize("name", ["double-pendulum", "elastic-pendulum", "heavy-top", "chain-pendulum"])
+def test_each_run_is_the_motion_alone(name: str) -> None:
+    """More runs than lanes, so that lanes take up others; each within its estimate of a much finer motion."""
+    ensemble = cloud(problem_of(load_scene(name), 3.0, 31), 21)
+    found = run_ensemble(ensemble, 1e-9)
+    assert {outcome.status for outcome in found.outcomes} == {"ok"}
+    for index in range(0, 21, 4):
+        alone = simulate(ensemble.member(index), get_method("dop853"), tolerance=1e-12)
+        true = np.abs(found.values[index] - alone.values).max(axis=1)
+        assert np.all(true <= found.errors[index] + alone.estimate.errors)
+        assert true.max() <= 1e-9
+
+
+def test_runs_do_not_depend_on_their_neighbours() -> None:
+    ensemble = cloud(problem_of(load_scene("double-pendulum"), 2.0, 5), 20)
+    together, apart = run_ensemble(ensemble, 1e-9), run_ensemble(ensemble.chosen(np.array([17])), 1e-9)
+    np.testing.assert_array_equal(together.values[17], apart.values[0])
+    np.testing.assert_array_equal(together.errors[17], apart.errors[0])
+
+
+def test_one_run_may_fail_and_the_others_not() -> None:
+    """x″ = x³ runs away where it begins far out; a mass that is thrown does not."""
+    problem = problem_of(oscillator("m*x^3", x=0.1, u=0.0), 3.0, 11)
+    states = np.array([[0.1, 0.0], [2.0, 3.0], [0.2, 0.0]])
+    found = run_ensemble(Ensemble(problem, states, np.repeat([problem.parameters], 3, axis=0)), 1e-8)
+    assert [outcome.status for outcome in found.outcomes] == ["ok", "diverged", "ok"]
+    assert np.isfinite(found.values[[0, 2]]).all()
+
+
+def test_forces_that_jump_are_run_one_by_one() -> None:
+    problem = problem_of(oscillator("-m*sign(x)", x=0.5, u=0.0), 4.0, 5)
+    found = run_ensemble(
+        Ensemble(problem, np.array([[0.5, 0.0], [2.0, 0.0]]), np.repeat([problem.parameters], 2, 0)), 1e-9
+    )
+    np.testing.assert_allclose(
+        found.values[:, :, 0], [[0.5, 0.0, -0.5, 0.0, 0.5], [2.0, 1.5, 0.0, -1.5, -2.0]], atol=1e-9
+    )
+
+
+def ask(**fields: Any) -> dict[str, Any]:
+    return run({"scene": write_scene(oscillator("-m*x")), "t_end": 2.0, "samples": 3, "tolerance": 1e-10} | fields)
+
+
+def test_a_grid_has_every_value_with_every_other() -> None:
+    vary = {"initial.x.value": [1.0, 2.0], "initial.x.rate": {"from": 0.0, "to": 1.0, "count": 3}}
+    found = ask(vary=vary)
+    assert found["quantities"] == {
+        "initial.x.value": [1.0, 1.0, 1.0, 2.0, 2.0, 2.0],
+        "initial.x.rate": [0.0, 0.5, 1.0, 0.0, 0.5, 1.0],
+    }
+    x, u = (np.array(column) for column in found["quantities"].values())
+    times = np.array(found["t"])[None, :]
+    np.testing.assert_allclose(
+        found["coordinates"]["x"], x[:, None] * np.cos(times) + u[:, None] * np.sin(times), atol=1e-10
+    )
+    assert found["status"] == ["ok"] * 6
+
+
+def test_statistics_of_a_cloud() -> None:
+    """x(t) = x₀ cos t: mean and deviation of what was drawn, times cos t."""
+    drawn = {"initial.x.value": {"normal": [3.0, 0.1], "count": 2001, "seed": 5}}
+    found = ask(vary=drawn, statistics=["mean", "quantiles"], runs=False)
+    again = ask(vary=drawn, statistics=["mean", "quantiles"], runs=False)
+    values = np.array(found["quantities"]["initial.x.value"])
+    assert "coordinates" not in found
+    assert (abs(values.mean() - 3.0), abs(values.std() - 0.1)) < (0.01, 0.01)
+    np.testing.assert_allclose(found["mean"]["x"], values.mean() * np.cos([0.0, 1.0, 2.0]), atol=1e-10)
+    median = found["quantiles"]["values"]["x"][found["quantiles"]["levels"].index(0.5)]
+    np.testing.assert_allclose(median, np.median(values) * np.cos([0.0, 1.0, 2.0]), atol=1e-10)
+    assert again["mean"] == found["mean"]
+
+
+X = "initial.x.value"
+KNOWN = "initial.x.value, initial.x.rate, " + ", ".join(f"parameters.{name}" for name in ("m", "k", "c", "F0", "omega"))
+REFUSED = [
+    pytest.param({"vary": {}}, "request-too-few", "/vary", id="nothing varies"),
+    pytest.param({"vary": {X: [1.0, "a"]}}, "request-not-number", f"/vary/{X}/1", id="no number"),
+    pytest.param({"vary": {X: {"from": 1.0, "to": 2.0}}}, "missing-field", f"/vary/{X}/count", id="how many"),
+    pytest.param({"vary": {"parameters.q": [1.0]}}, "ensemble-quantity", "/vary/parameters.q", id="unknown"),
+    pytest.param({"vary": {X: [1.0]}, "t_end": 0.0}, "request-outside", "/t_end", id="no time"),
+    pytest.param(
+        {"vary": {X: [1.0], "parameters.k": [1.0, 2.0]}, "combine": "together"}, "ensemble-unlike", "/vary", id="unlike"
+    ),
+    pytest.param(
+        {"vary": {X: {"from": 0.0, "to": 1.0, "count": 60000}, "parameters.k": [1.0, 2.0]}},
+        "ensemble-too-large",
+        "/vary",
+        id="too many",
+    ),
+    pytest.param(
+        {"vary": {X: {"from": 0.0, "to": 1.0, "count": 50000}}, "t_end": 20.0},
+        "ensemble-too-large",
+        "/vary",
+        id="too long",
+    ),
+]
+
+
+@pytest.mark.parametrize(("fields", "code", "pointer"), REFUSED)
+def test_what_cannot_be_run_is_refused_before_anything_runs(fields: dict[str, Any], code: str, pointer: str) -> None:
+    with pytest.raises(RequestError) as caught:
+        ask(**fields)
+    assert [(one.code, one.pointer) for one in caught.value.problems] == [(code, pointer)]
+
+
+def test_an_unknown_quantity_is_told_with_those_there_are() -> None:
+    with pytest.raises(RequestError) as caught:
+        ask(vary={"initial.x": [1.0]})
+    parameters = {"name": "initial.x", "known": KNOWN}
+    assert caught.value.problems == (Problem("ensemble-quantity", "/vary/initial.x", parameters=parameters),)
