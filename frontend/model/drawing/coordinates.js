@@ -20,9 +20,10 @@ import { coordinateClass, latexOf, marked } from "./stage.js";
 
 /** @type {Figure} */
 const NOTHING = { shapes: [], labels: [] };
-/** Radius of an arc in units of the drawing, and as part of its place's distance from the centre at most. */
+/** Radius of an arc in units of the drawing, as part of its place's distance from the centre at most, and in units at least. */
 const RADIUS = 4.2;
 const NEAR = 0.62;
+const LEAST = 2.2;
 /** How far a line stands aside, in units. */
 const ASIDE = 1.6;
 /** Below this many units there is nothing to see. */
@@ -125,7 +126,8 @@ function spun(element, stage, now, key) {
 function turned(element, stage, { key, centre, at, turn }) {
   const hub = stage.project(centre);
   const far = Math.hypot(...minus(at(0), centre)) * stage.scale;
-  const part = Math.min((RADIUS * stage.unit) / (far || 1), NEAR);
+  // A body may be so small on the screen that its angle is seen only round it.
+  const part = far > 1 ? Math.max(Math.min((RADIUS * stage.unit) / far, NEAR), (LEAST * stage.unit) / far) : 0;
   const on = (/** @type {number} */ q) => along(centre, minus(at(q), centre), part);
   const sides = [stage.project(on(0)), stage.project(on(turn))].map((end, i) => ({
     key: `${key}-${i ? "side" : "axis"}`,
