@@ -5,6 +5,14 @@ import { NO_FAILURES } from "./state.js";
 import { mover } from "./store.js";
 import { readChanges, UNCHANGED } from "./values.js";
 
+/** @typedef {Pick<import("./types.js").Scene, "coordinates" | "guides" | "constraints">} Counted */
+
+/** Coordinates that no guide prescribes: each has an equation. @param {Counted} scene */
+export const freedomsOf = ({ coordinates, guides }) => coordinates.length - (guides ?? []).length;
+
+/** Degrees of freedom: those less the constraints. @param {Counted} scene */
+export const degreesOf = (scene) => freedomsOf(scene) - (scene.constraints ?? []).length;
+
 /**
  * @param {import("./state.js").Store} store
  * @param {import("./api.js").Api} api

@@ -6,6 +6,7 @@ import { icon } from "./icons.js";
 import { addEntry, addTool, titleOfPlace } from "./lectures/adding.js";
 import { inLanguage } from "../model/catalog.js";
 import { OWN } from "../model/own.js";
+import { degreesOf } from "../model/subject.js";
 import { LANGUAGES, PAGES, pageAddress } from "../model/url.js";
 
 /** @typedef {import("./page.js").View} View */
@@ -134,9 +135,6 @@ function penEntry(view) {
   const { label, press, disabled } = pen(view);
   return disabled ? nothing : action(label, press);
 }
-
-/** @param {import("../model/types.js").Scene} scene */
-const degreesOf = (scene) => scene.coordinates.length - (scene.guides ?? []).length;
 
 /** The built-in scenes, and the viewer's own if it is there. @param {View["state"]} state */
 function entriesOf({ scenes, scene, place }) {

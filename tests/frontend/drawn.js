@@ -18,6 +18,7 @@ import { requestOf } from "../../frontend/model/request.js";
 import { sampled } from "../../frontend/model/sampling.js";
 import { coverage } from "./symbols.js";
 import { START } from "../../frontend/model/state.js";
+import { degreesOf } from "../../frontend/model/subject.js";
 import { kinematicsOf } from "../../frontend/model/kinematics/kinematics.js";
 import { endOf, snapshotAt } from "../../frontend/model/trajectory.js";
 import { readChoice } from "../../frontend/model/virtual/choice.js";
@@ -230,7 +231,7 @@ async function measure({ scene, derivation, changes = {}, method = "" }) {
   const intervals = Math.round(request.t_end / (drawn.t[1] - drawn.t[0]));
   const dense = await simulate({ ...request, samples: Math.min(FINER * intervals, 20000) + 1 });
   const found = [ofPlots, ofPhase, ofDrawing, ofHandout].flatMap((of) => of(scene, drawn, dense));
-  tell({ worst: Object.fromEntries(found), samples: drawn.t.length, coarse: drawn.coarse, end: endsOf(scene, drawn), ...(derivation && { letters: ofLetters(scene, drawn, derivation.result), symbols: coverage(scene, drawn, derivation) }) });
+  tell({ worst: Object.fromEntries(found), samples: drawn.t.length, coarse: drawn.coarse, end: endsOf(scene, drawn), degrees: degreesOf(scene), ...(derivation && { letters: ofLetters(scene, drawn, derivation.result), symbols: coverage(scene, drawn, derivation) }) });
 }
 
 for (let asked = await read(); asked; asked = await read()) await measure(asked);

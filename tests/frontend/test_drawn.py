@@ -67,6 +67,7 @@ def test_curves_portraits_paths_and_handout(drawing: Drawing, scene: str) -> Non
     assert {curve: far for curve, far in found["worst"].items() if far is None or not far < SEEN} == {}
     assert kinds_of(found["worst"]) >= {"plot", "phase", "state", "place", "path", "handout"}
     assert not found["coarse"]
+    assert found["degrees"] == load_scene(scene).degrees_of_freedom
     # No letter on another, on the head of an arrow or on a body; and nearly all are there, those of δr's parts, too.
     for letters in found["letters"].values():
         assert letters["covers"] == {}

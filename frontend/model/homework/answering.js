@@ -4,7 +4,7 @@ import { latestOnly } from "../latest.js";
 import { isComplete, isEmpty, joined, partsOf } from "./answer.js";
 import { attempt } from "./attempt.js";
 import { isOrdering } from "./ordering.js";
-import { freedomsOf } from "./sheet.js";
+import { freedomsOf } from "../subject.js";
 
 /** @typedef {import("./answer.js").Syntax} Syntax */
 /** @typedef {import("./progress.js").Draft} Draft */

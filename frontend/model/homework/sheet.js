@@ -83,12 +83,6 @@ export function referenceIn(assignment, index, seed) {
 /** Whether it is the library's scene as it is, so that its own page shows the same. @param {Reference} reference */
 export const isPlain = ({ scene, guides, freeze, vary }) => typeof scene === "string" && !guides && !freeze && !vary;
 
-/** Coordinates that no guide prescribes: each has an equation. @param {Scene} scene */
-export const freedomsOf = (scene) => scene.coordinates.length - (scene.guides ?? []).length;
-
-/** Degrees of freedom: those less the constraints. @param {Scene} scene */
-export const degreesOf = (scene) => freedomsOf(scene) - (scene.constraints ?? []).length;
-
 /**
  * Points earned and to be had; a task whose solution was looked at before earns none.
  * @param {Sheet} sheet @param {(key: string) => import("./progress.js").Draft} draft
