@@ -45,7 +45,7 @@ GeneratorFamily = Literal["affine", "motions-of-space"]
 # What holds a part of a scene fixed: a length, another parameter of positions, the guide of a coordinate.
 HoldKind = Literal["length", "angle", "guide"]
 # Whether a load has a potential, by the curl of its generalized forces.
-Passage = Literal["impact", "rest", "release", "stick", "slip", "turn"]  # what happens where a motion goes on
+TransitionKind = Literal["impact", "rest", "release", "stick", "slip", "turn"]  # what happens where a motion goes on
 CurlOutcome = Literal[
     "conservative",
     "conservative-in-time",

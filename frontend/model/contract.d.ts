@@ -4821,39 +4821,6 @@ export interface components {
             coordinate: string;
         };
         /**
-         * PassageAnswer
-         * @description An event behind which the motion went on: an impact, rest, release, sticking, slipping, a turn of slipping.
-         */
-        PassageAnswer: {
-            /**
-             * Name
-             * @description of the event, or of the load with friction
-             * @example impact
-             */
-            name: string;
-            /**
-             * Time
-             * @description in seconds
-             */
-            time: number;
-            /**
-             * Kind
-             * @description what happened
-             * @enum {string}
-             */
-            kind: "impact" | "rest" | "release" | "stick" | "slip" | "turn";
-            /**
-             * Loss
-             * @description energy that it took, in J
-             */
-            loss: number;
-            /**
-             * Error
-             * @description estimated error of the time in seconds; null where it is not known
-             */
-            error: number | null;
-        };
-        /**
          * PointScheme
          * @description How points are given.
          */
@@ -6234,7 +6201,7 @@ export interface components {
              * @description events behind which it went on, in their order
              * @default []
              */
-            events: components["schemas"]["PassageAnswer"][];
+            events: components["schemas"]["TransitionAnswer"][];
             /**
              * Method
              * @example dop853
@@ -7614,6 +7581,39 @@ export interface components {
              * @description likewise
              */
             y?: string | null;
+        };
+        /**
+         * TransitionAnswer
+         * @description An event behind which the motion went on: an impact, rest, release, sticking, slipping, a turn of slipping.
+         */
+        TransitionAnswer: {
+            /**
+             * Name
+             * @description of the event, or of the load with friction
+             * @example impact
+             */
+            name: string;
+            /**
+             * Time
+             * @description in seconds
+             */
+            time: number;
+            /**
+             * Kind
+             * @description what happened
+             * @enum {string}
+             */
+            kind: "impact" | "rest" | "release" | "stick" | "slip" | "turn";
+            /**
+             * Loss
+             * @description energy that it took, in J
+             */
+            loss: number;
+            /**
+             * Error
+             * @description estimated error of the time in seconds; null where it is not known
+             */
+            error: number | null;
         };
         /**
          * TwinRuns

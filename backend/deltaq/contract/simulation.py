@@ -8,7 +8,7 @@ from pydantic import Field, field_validator, model_validator
 from pydantic_core import PydanticCustomError
 from typing_extensions import TypeAliasType
 
-from ..vocabulary import AUTO, Passage, Status
+from ..vocabulary import AUTO, Status, TransitionKind
 from .base import Answer, AskedLanguage, Name, NotAbove, Released, SceneWithInitialValues, examples, items, outside
 
 LARGEST_SPAN = 1e5  # seconds
@@ -113,12 +113,12 @@ class EventAnswer(Answer):
     error: float | None = Field(description="null where it was not asked for, or where the event itself is doubtful")
 
 
-class PassageAnswer(Answer):
+class TransitionAnswer(Answer):
     """An event behind which the motion went on: an impact, rest, release, sticking, slipping, a turn of slipping."""
 
     name: str = Field(description="of the event, or of the load with friction", examples=["impact"])
     time: float = Field(description="in seconds")
-    kind: Passage = Field(description="what happened")
+    kind: TransitionKind = Field(description="what happened")
     loss: float = Field(description="energy that it took, in J")
     error: float | None = Field(description="estimated error of the time in seconds; null where it is not known")
 
@@ -143,7 +143,7 @@ class SimulationAnswer(Answer):
     reason: str = Field(description="the status as a sentence")
     remedy: str = Field(description="what to do about it")
     event: EventAnswer | None = Field(None, description="the event that ended it; its time is the last of t")
-    events: list[PassageAnswer] = Field([], description="events behind which it went on, in their order")
+    events: list[TransitionAnswer] = Field([], description="events behind which it went on, in their order")
     method: str = Field(examples=["dop853"])
     choice: str | None = Field(description="why this method, if it was left to be chosen")
     columns: Written = Field("numbers", description="how all columns of this answer are written")

@@ -13,11 +13,11 @@ from .choice import Choice
 from .columns import WRITERS, Column
 from .derivatives import power
 from .outcome import Outcome
-from .passages import Happening
 from .problem import Floats, Moved, Problem
 from .request import Request
 from .rounding import rounded, short, significant
 from .trajectory import MOST_TOLD, Trajectory
+from .transitions import Transition
 
 Document = dict[str, object]
 NOTICED = 1e-9  # a change of an initial value, relative to it or to 1, that is worth telling
@@ -44,7 +44,7 @@ def answer(
         "reason": _told(trajectory.outcome),
         "remedy": _told(trajectory.outcome),
         "event": _event(request, trajectory),
-        "events": [_passage(each) for each in trajectory.happenings[:MOST_TOLD]],
+        "events": [_transition(each) for each in trajectory.transitions[:MOST_TOLD]],
         "method": choice.method.id,
         "choice": {"code": choice.reason, "parameters": {}} if choice.reason else None,
         "columns": request.columns,
@@ -106,7 +106,7 @@ def _event(request: Request, trajectory: Trajectory) -> Document | None:
     return {"name": event.name, "title": plainly(event.title), "t": float(rounded(time, doubt)[0]), "error": error}
 
 
-def _passage(found: Happening) -> Document:
+def _transition(found: Transition) -> Document:
     """An event behind which the motion went on; its time is rounded to what its error supports."""
     time, doubt = np.array([found.time]), np.array([found.error or UNKNOWN_ERROR])
     return {

@@ -12,16 +12,16 @@ from ..model.modes import Modes
 from .audit import USUAL, Audit
 from .estimate import Estimate, estimate, larger, rounding_matters, with_rounding
 from .event import EventOccurrence
-from .going_on import run_on
+from .hybrid import run_on
 from .integration import Flag
 from .kernels.motion import CANCELLED, STEP_LIMIT, STIFF
 from .method import Method
-from .passages import begun
 from .pieces import Pieces, Stretch
 from .problem import Floats, Problem
 from .refinement import FINER, LAST, Refinement
 from .run import Run, Steps, run
 from .side_by_side import side_by_side
+from .transitions import begun
 
 TRIES = 6
 ROUNDS = 4  # of shorter steps where a run was blind

@@ -19,13 +19,13 @@ from .estimate import Estimate
 from .event import EventOccurrence
 from .integration import Flag
 from .method import Method, Series
-from .passages import Happening
 from .problem import Floats, Problem
 from .reactions import reactions_at
 from .refinement import BySeries, ByStep, ByTolerance, Refinement
 from .rounding import significant
 from .run import Stop
 from .trajectory import MOST_TOLD, Cost, Trajectory
+from .transitions import Transition
 
 SPACING = 4e-16  # of numbers, relative
 LEAST_SAMPLES = 200  # intervals that errors are compared on, however few samples are asked for
@@ -117,8 +117,8 @@ def _trajectory(
     best = max(attempts, key=_merit)
     found, n = best.estimate, problem.degrees
     is_reached = None if tolerance is None or found is None else found.worst <= tolerance and best.is_complete
-    happenings = _happenings(best)
-    times, states, errors = _with_both_sides(happenings, *_shown(best, _refined(problem)))
+    transitions = _transitions(best)
+    times, states, errors = _with_both_sides(transitions, *_shown(best, _refined(problem)))
     reactions = None
     if problem.reactions:
         states, reactions = reactions_at(problem, times, states)
@@ -140,14 +140,14 @@ def _trajectory(
         _event_occurrence(best),
         best.seen_until,
         reactions,
-        happenings,
+        transitions,
     )
 
 
-def _happenings(best: Attempt) -> tuple[Happening, ...]:
+def _transitions(best: Attempt) -> tuple[Transition, ...]:
     """The events behind which the motion went on, their times judged by how far the other run's are from them."""
-    found = best.chosen.happenings
-    others = best.runs[0 if best.chosen is best.runs[-1] else -1].happenings
+    found = best.chosen.transitions
+    others = best.runs[0 if best.chosen is best.runs[-1] else -1].transitions
     is_known = best.estimate is not None and len(best.runs) > 1
     pairs = zip(found, (*others, *(None,) * len(found)), strict=False)
     return tuple(
@@ -159,10 +159,10 @@ def _happenings(best: Attempt) -> tuple[Happening, ...]:
 
 
 def _with_both_sides(
-    happenings: tuple[Happening, ...], times: Floats, states: Floats, errors: Floats
+    transitions: tuple[Transition, ...], times: Floats, states: Floats, errors: Floats
 ) -> tuple[Floats, Floats, Floats]:
     """The samples, and at each event its time twice, with the states before and behind it."""
-    inside = [each for each in happenings[:MOST_TOLD] if len(times) and each.time <= times[-1]]
+    inside = [each for each in transitions[:MOST_TOLD] if len(times) and each.time <= times[-1]]
     if not inside:
         return times, states, errors
     at = np.array([each.time for each in inside])

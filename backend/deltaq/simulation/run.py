@@ -15,12 +15,12 @@ from .kernels.motion import EVENT, FINE, HELD, LOCKED, SINGULAR, STEP_LIMIT, STI
 from .kernels.plan import CAPACITY, COUNT, STRIDE, Plan, make_plan
 from .kernels.step_control import Control
 from .method import Method, Series
-from .passages import Happening
 from .pieces import Pieces
 from .problem import Floats, Problem
 from .reactions import reactions_at
 from .series.engine import jet_of_model
 from .stability import real_stability
+from .transitions import Transition
 
 APART = 1e-6  # of the distance between two samples; the last one before an event is that far from it at least
 
@@ -59,7 +59,7 @@ class Run:
     A state is (q, q̇) or, where power is fed in, (q, q̇, ∫P dt). `event` is what ended it, if an event did; else
     `approaches` tell how close it came to each of the scene's events. `held` is where friction holds it. `mesh_times`,
     shape (mesh,), and `mesh_states` (q, q̇), shape (mesh, 2n), are the ends of its steps, or of every `stride`-th,
-    where they were recorded. `happenings` are the events behind which it went on.
+    where they were recorded. `transitions` are the events behind which it went on.
     """
 
     times: Floats
@@ -75,7 +75,7 @@ class Run:
     mesh_states: Floats = field(default_factory=lambda: np.empty((0, 0)))
     stride: int = 1
     reactions: Reactions | None = None  # where there are constraints
-    happenings: tuple[Happening, ...] = ()
+    transitions: tuple[Transition, ...] = ()
     meshes: tuple[Mesh, ...] = ()
 
     @property

@@ -25,11 +25,11 @@ from .driver import simulate
 from .event import event_values
 from .library import get_method, method_ids
 from .outcome import Outcome
-from .passages import TOUCHING
 from .problem import Floats, Problem, Released
 from .request import Request, read_request
 from .rounding import short
 from .trajectory import Trajectory
+from .transitions import TOUCHING
 
 ANGLES = frozenset({"rad", "1", "°", "deg"})
 LARGEST = float(np.finfo(np.float64).max) / 16  # of a number in an answer: differences of energies are numbers, too

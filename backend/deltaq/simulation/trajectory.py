@@ -10,8 +10,8 @@ from .constraints import Reactions
 from .estimate import Estimate
 from .event import EventOccurrence
 from .outcome import Outcome
-from .passages import Happening
 from .problem import Floats
+from .transitions import Transition
 
 MOST_TOLD = 1000  # events behind which a motion went on
 
@@ -36,7 +36,7 @@ class Trajectory:
     `values` and `rates` are q and q̇ of the free coordinates, shape (samples, n); `work` is ∫P dt, shape (samples,).
     `estimate` is None if it was not asked for; `reached` is the time at which the runs ended. `conditioning` is the
     smallest pivot of the mass matrix met, relative to the diagonal entry it is left of. Where an event ended the
-    motion, its time is the last sample; `happenings` are events behind which it went on, and their times are samples
+    motion, its time is the last sample; `transitions` are events behind which it went on, and their times are samples
     twice, before and behind them. Behind `seen_until` steps were too long to see what the forces do. `reactions` are
     those of the constraints at the samples, where there are any.
     """
@@ -55,7 +55,7 @@ class Trajectory:
     event: EventOccurrence | None = None
     seen_until: float = np.inf
     reactions: Reactions | None = None
-    happenings: tuple[Happening, ...] = ()
+    transitions: tuple[Transition, ...] = ()
 
     @property
     def trusted_until(self) -> float:

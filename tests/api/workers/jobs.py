@@ -6,6 +6,7 @@ import contextlib
 import gc
 import hashlib
 import os
+import resource
 import signal
 import struct
 import sys
@@ -137,6 +138,14 @@ def eat_memory(document: Any) -> Any:
 
 def recurse(document: Any) -> Any:
     return recurse(document)
+
+
+def leave_nothing(document: Any) -> Any:
+    """What comes after it in the same process has no memory left, or no processor time."""
+    if document == "memory":
+        resource.setrlimit(resource.RLIMIT_AS, (2**20, resource.getrlimit(resource.RLIMIT_AS)[1]))
+    else:
+        threading.Timer(0.1, os.kill, (os.getpid(), signal.SIGXCPU)).start()
 
 
 def large(document: Any) -> Any:

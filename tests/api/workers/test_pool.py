@@ -240,6 +240,25 @@ async def test_killed_while_replying_is_repeated(make_pool: MakePool, tmp_path: 
     assert pool.state.kills == 1
 
 
+@pytest.mark.parametrize("what", ["memory", "processor time"])
+async def test_what_one_job_leaves_behind_is_not_the_next_ones_fault(
+    make_pool: MakePool, what: str, caplog: pytest.LogCaptureFixture
+) -> None:
+    pool = make_pool()
+    await run(pool, "leave_nothing", what)
+    time.sleep(0.5)
+    assert await run(pool, "large", 10_000_000) == "x" * 10_000_000
+    assert pool.state.kills == 1
+    assert "a worker of 1 jobs was at its bounds" in caplog.text
+
+
+async def test_too_large_in_a_new_worker_is_too_large(make_pool: MakePool) -> None:
+    pool = make_pool()
+    with pytest.raises(MemoryExceeded):
+        await run(pool, "recurse")
+    assert pool.state.kills == 1
+
+
 async def test_no_answer_is_lost_or_wrong_while_workers_are_killed(make_pool: MakePool) -> None:
     pool = make_pool(3)
     stop = asyncio.Event()

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import logging
+import time
 from contextlib import suppress
 from dataclasses import dataclass
 from functools import partial
@@ -10,7 +11,7 @@ from threading import Event, Thread
 
 from ...errors import DeltaqError, InputError
 from .account import QuotaExceeded
-from .job import GivenUp, JobError, JobFailed, NotFast, Overloaded, WorkerKilled
+from .job import DeadlineExceeded, GivenUp, JobError, JobFailed, MemoryExceeded, NotFast, Overloaded, WorkerKilled
 from .message import decode_reply
 from .queue import FairQueue
 from .task import Task
@@ -18,6 +19,7 @@ from .worker import Worker, start_worker
 
 LOGGER = logging.getLogger("deltaq.workers")
 FIRST_PAUSE, LONGEST_PAUSE = 0.05, 5.0
+AT_ONCE = 0.1  # seconds, in which no job can use up its own bounds: the least is 0.2 s of a processor
 
 
 @dataclass(frozen=True)
@@ -110,11 +112,21 @@ class WorkerThread(Thread):
             task.answer.set_result(outcome) if isinstance(outcome, bytes) else task.answer.set_exception(outcome)
 
     def outcome(self, task: Task) -> bytes | DeltaqError:
-        """Runs a task; once more if it is pure and the worker was killed from outside."""
+        """Runs a task; once more if it is pure and it was not its own doing that it had no answer.
+
+        So it is when the worker was killed from outside, or was at its bounds when the task came: jobs before it had
+        left it too little.
+        """
         try:
             task.account.admit()  # others of its tasks may have used up the share meanwhile
+            others, begin = self.served if self.worker else 0, time.monotonic()
             first = self.attempt(task)
-            return self.attempt(task) if isinstance(first, WorkerKilled) and task.job.pure else first
+            at_once = others > 0 and time.monotonic() - begin < AT_ONCE
+            if isinstance(first, (DeadlineExceeded, MemoryExceeded)) and at_once:
+                LOGGER.warning("a worker of %d jobs was at its bounds: %r", others, first)
+            elif not isinstance(first, WorkerKilled):
+                return first
+            return self.attempt(task) if task.job.pure else first
         except QuotaExceeded as error:
             return error
 

@@ -41,7 +41,7 @@ class Mode:
 
 
 @dataclass(frozen=True)
-class Happening:
+class Transition:
     """An event behind which the motion went on: its name, time in seconds, kind, and the energy that was lost in J.
 
     `before` and `after` are the states on both sides of it, shape (width,).
@@ -75,7 +75,7 @@ class Facts:
 
 
 @dataclass(frozen=True)
-class Moment:
+class ModeState:
     """A state (q, q̇) at a time, in a mode, of a problem in modes; `q` and `v` have shape (n,)."""
 
     problem: Problem
@@ -131,11 +131,11 @@ class Moment:
         """½ q̇ᵀ M q̇, up to what does not change at an impact."""
         return float(0.5 * self.v @ self.mass @ self.v)
 
-    def with_flags(self, flags: tuple[float, ...]) -> Moment:
+    def with_flags(self, flags: tuple[float, ...]) -> ModeState:
         """The same state with other rows held."""
         return replace(self, mode=replace(self.mode, flags=flags))
 
-    def pushed(self, row: int, change: float) -> Moment:
+    def pushed(self, row: int, change: float) -> ModeState:
         """The state behind an impulse along a row that changes its rate w by so much."""
         along = np.linalg.solve(self.mass, self.facts.a[row])
         return replace(self, v=self.v + along * (change / (self.facts.a[row] @ along)))
@@ -145,93 +145,93 @@ class UnsettledError(Exception):
     """Contacts at once whose impacts one after the other do not end."""
 
 
-def begun(problem: Problem, modes: Modes) -> Moment:
+def begun(problem: Problem, modes: Modes) -> ModeState:
     """The initial state in its mode."""
     n = problem.degrees
     state, empty = problem.state, Mode(
         (1.0,) * modes.kinks, (1.0,) * len(modes.frictions), (0.0,) * modes.rows, (0.0,) * modes.watched
     )  # fmt: skip
     own = replace(problem, parameters=(*problem.parameters, *empty.parameters))
-    moment = Moment(own, modes, 0.0, state[:n].copy(), state[n : 2 * n].copy(), empty)
-    kinks = tuple(-1.0 if kink < 0.0 else 1.0 for kink in moment.facts.kinks)
-    moment = replace(moment, mode=replace(empty, kinks=kinks))
-    closed = [j for j, gap in enumerate(moment.facts.gaps) if gap <= TOUCHING * _size(moment.q)]
-    return _resolved(_after_impacts(moment, closed[0]) if closed else moment, frozenset(closed), None)
+    current = ModeState(own, modes, 0.0, state[:n].copy(), state[n : 2 * n].copy(), empty)
+    kinks = tuple(-1.0 if kink < 0.0 else 1.0 for kink in current.facts.kinks)
+    current = replace(current, mode=replace(empty, kinks=kinks))
+    closed = [j for j, gap in enumerate(current.facts.gaps) if gap <= TOUCHING * _size(current.q)]
+    return _resolved(_after_impacts(current, closed[0]) if closed else current, frozenset(closed), None)
 
 
-def passed(moment: Moment, watched: int) -> tuple[Moment, str, str]:
+def passed(current: ModeState, watched: int) -> tuple[ModeState, str, str]:
     """The state behind an event of a watched value that goes on, the name of what it happened to, and its kind."""
-    modes, ending, mode = moment.modes, len(moment.modes.ending), moment.mode
+    modes, ending, mode = current.modes, len(current.modes.ending), current.mode
     place = watched - ending
     if place < modes.kinks:
         kinks = tuple(-sign if k == place else sign for k, sign in enumerate(mode.kinks))
-        return _resolved(replace(moment, mode=replace(mode, kinks=kinks)), frozenset(), None), "", "switch"
+        return _resolved(replace(current, mode=replace(mode, kinks=kinks)), frozenset(), None), "", "switch"
     place -= modes.kinks
     frictions = len(modes.frictions)
     if place < 2 * frictions:
         k = place // 2
         if mode.flags[k]:
-            found = _resolved(moment, frozenset(), k)
+            found = _resolved(current, frozenset(), k)
             return found, modes.frictions[k], "slip"
-        facts = moment.facts
-        sign, rate = mode.slips[k], float(facts.a[k] @ moment.accelerations + facts.bias[k])
-        stopped = _at_zero(moment, sign * float(facts.w[k]), sign * rate)
+        facts = current.facts
+        sign, rate = mode.slips[k], float(facts.a[k] @ current.accelerations + facts.bias[k])
+        stopped = _at_zero(current, sign * float(facts.w[k]), sign * rate)
         stopped = stopped.pushed(k, -float(stopped.facts.w[k]))
         found = _resolved(stopped, frozenset(), None)
         return found, modes.frictions[k], "stick" if found.mode.flags[k] else "turn"
     j = place - 2 * frictions
     name = modes.scene.events[modes.contacts[j]].name
     if mode.flags[frictions + j]:
-        return _resolved(moment, frozenset(), frictions + j), name, "release"
-    closed = _at_zero(moment, float(moment.facts.gaps[j]), float(moment.facts.w[frictions + j]))
+        return _resolved(current, frozenset(), frictions + j), name, "release"
+    closed = _at_zero(current, float(current.facts.gaps[j]), float(current.facts.w[frictions + j]))
     found = _resolved(_after_impacts(closed, j), frozenset({j}), None)
     return found, name, "rest" if found.mode.flags[frictions + j] else "impact"
 
 
-def _at_zero(moment: Moment, value: float, rate: float) -> Moment:
+def _at_zero(current: ModeState, value: float, rate: float) -> ModeState:
     """The state when the value that fell was zero, without the offset that it was watched with."""
     late = value / rate if rate < 0.0 else 0.0
     if not 0.0 < late < 1e-9:
-        return moment
-    q, v = moment.q - late * moment.v, moment.v - late * moment.accelerations
-    return replace(moment, time=moment.time - late, q=q, v=v)
+        return current
+    q, v = current.q - late * current.v, current.v - late * current.accelerations
+    return replace(current, time=current.time - late, q=q, v=v)
 
 
-def _after_impacts(moment: Moment, first: int) -> Moment:
+def _after_impacts(current: ModeState, first: int) -> ModeState:
     """The state behind the impact of a contact, and of others that it closes or that touch, one after the other."""
-    frictions = len(moment.modes.frictions)
-    free = moment.with_flags((0.0,) * moment.modes.rows)
-    resting = {j for j in range(len(moment.modes.contacts)) if moment.mode.flags[frictions + j]}
+    frictions = len(current.modes.frictions)
+    free = current.with_flags((0.0,) * current.modes.rows)
+    resting = {j for j in range(len(current.modes.contacts)) if current.mode.flags[frictions + j]}
     touching = {first} | resting | {j for j, gap in enumerate(free.facts.gaps) if gap <= TOUCHING * _size(free.q)}
     for _ in range(MOST_IMPACTS):
         rates = {j: float(free.facts.w[frictions + j]) for j in touching}
         j = min(rates, key=lambda each: rates[each])
         if rates[j] >= -STILL * _size(free.v):
-            return replace(free, mode=moment.mode)
+            return replace(free, mode=current.mode)
         e = 0.0 if _rests(free, frictions + j, j) else float(free.facts.restitutions[j])
         free = free.pushed(frictions + j, -(1.0 + e) * rates[j])
     raise UnsettledError
 
 
-def _rests(moment: Moment, row: int, contact: int) -> bool:
+def _rests(current: ModeState, row: int, contact: int) -> bool:
     """Whether the rebound would be lower than can be told from rest."""
-    facts = moment.facts
+    facts = current.facts
     rebound = float(facts.restitutions[contact] * facts.w[row])
-    pull = -float(facts.a[row] @ moment.accelerations + facts.bias[row])
-    return pull > 0.0 and rebound**2 <= 2.0 * pull * HEIGHT * _size(moment.q)
+    pull = -float(facts.a[row] @ current.accelerations + facts.bias[row])
+    return pull > 0.0 and rebound**2 <= 2.0 * pull * HEIGHT * _size(current.q)
 
 
-def _resolved(moment: Moment, closed: frozenset[int], released: int | None) -> Moment:
+def _resolved(current: ModeState, closed: frozenset[int], released: int | None) -> ModeState:
     """The mode that a state goes on in: rows at rest are held as long as their reactions can, the rest moves."""
-    modes, frictions = moment.modes, len(moment.modes.frictions)
-    facts, size = moment.facts, _size(moment.v)
+    modes, frictions = current.modes, len(current.modes.frictions)
+    facts, size = current.facts, _size(current.v)
     slips = [
-        s if abs(w) <= HARDLY * size else float(np.sign(w)) for s, w in zip(moment.mode.slips, facts.w, strict=False)
+        s if abs(w) <= HARDLY * size else float(np.sign(w)) for s, w in zip(current.mode.slips, facts.w, strict=False)
     ]
     held = [abs(float(facts.w[k])) <= HARDLY * size for k in range(frictions)]
     for j in range(len(modes.contacts)):
         row = frictions + j
-        touches = j in closed or moment.mode.flags[row] or facts.gaps[j] <= TOUCHING * _size(moment.q)
+        touches = j in closed or current.mode.flags[row] or facts.gaps[j] <= TOUCHING * _size(current.q)
         held.append(bool(touches and abs(float(facts.w[row])) <= 10.0 * STILL * size))
     if released is not None:
         held[released] = False
@@ -239,40 +239,42 @@ def _resolved(moment: Moment, closed: frozenset[int], released: int | None) -> M
             slips[released] = -float(np.sign(facts.reactions[released])) or 1.0
     for row in range(modes.rows):
         if held[row] and facts.w[row] != 0.0:
-            moment = moment.pushed(row, -float(facts.w[row]))
-            facts = moment.facts
+            current = current.pushed(row, -float(facts.w[row]))
+            facts = current.facts
     for _ in range(2 * modes.rows + 2):
         flags = tuple(float(h) for h in held)
-        trial = replace(moment, mode=replace(moment.mode, flags=flags, slips=tuple(slips)))
+        trial = replace(current, mode=replace(current.mode, flags=flags, slips=tuple(slips)))
         lost = _lost(trial, held)
         if lost is None:
             break
         held[lost] = False
         if lost < frictions:
             slips[lost] = -float(np.sign(trial.facts.reactions[lost]))
-    return _offset(replace(moment, mode=replace(moment.mode, flags=tuple(map(float, held)), slips=tuple(slips))))
+    return _offset(replace(current, mode=replace(current.mode, flags=tuple(map(float, held)), slips=tuple(slips))))
 
 
-def _lost(moment: Moment, held: list[bool]) -> int | None:
+def _lost(current: ModeState, held: list[bool]) -> int | None:
     """The first row that is not held after all: friction that is too small, a contact that would pull."""
-    facts, frictions = moment.facts, len(moment.modes.frictions)
+    facts, frictions = current.facts, len(current.modes.frictions)
     for k in range(frictions):
         if held[k] and abs(float(facts.reactions[k])) > float(facts.limits[k]) * (1.0 + SLACK):
             return k
-    return next((row for row in range(frictions, moment.modes.rows) if held[row] and facts.reactions[row] <= 0.0), None)
+    return next(
+        (row for row in range(frictions, current.modes.rows) if held[row] and facts.reactions[row] <= 0.0), None
+    )
 
 
-def _offset(moment: Moment) -> Moment:
+def _offset(current: ModeState) -> ModeState:
     """Offsets that make all watched values positive: what has just happened does not happen again at once."""
-    modes = moment.modes
-    plain = replace(moment, mode=replace(moment.mode, offsets=(0.0,) * modes.watched))
+    modes = current.modes
+    plain = replace(current, mode=replace(current.mode, offsets=(0.0,) * modes.watched))
     ending, frictions = len(modes.ending), len(modes.frictions)
     first, last = ending + modes.kinks, ending + modes.kinks + 2 * frictions
     offsets = []
     for place, value in enumerate(plain.watched):
-        room = HARDLY * _size(moment.v) if first <= place < last else ROUNDING * _size(moment.q)
+        room = HARDLY * _size(current.v) if first <= place < last else ROUNDING * _size(current.q)
         offsets.append(0.0 if place < ending or value > room else room - min(float(value), 0.0))
-    return replace(moment, mode=replace(moment.mode, offsets=tuple(offsets)))
+    return replace(current, mode=replace(current.mode, offsets=tuple(offsets)))
 
 
 def _size(values: Floats) -> float:

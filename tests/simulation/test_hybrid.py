@@ -39,7 +39,7 @@ def motion(scene: Scene, t_end: float, tolerance: float = 1e-10, method: str = "
 
 
 def kinds(found: Trajectory) -> list[str]:
-    return [each.kind for each in found.happenings]
+    return [each.kind for each in found.transitions]
 
 
 def on_line(loads: Sequence[dict[str, Any]], events: Sequence[dict[str, Any]] = (), **start: float) -> Scene:
@@ -68,8 +68,8 @@ def test_twenty_impacts_on_a_table_at_rest(method: str) -> None:
         speed *= 0.8
         times.append(times[-1] + 2.0 * speed / G)
     assert kinds(found)[:20] == ["impact"] * 20
-    assert np.abs(np.array([each.time for each in found.happenings[:20]]) - times).max() < 1e-13
-    assert [each.loss for each in found.happenings[:20]] == pytest.approx(
+    assert np.abs(np.array([each.time for each in found.transitions[:20]]) - times).max() < 1e-13
+    assert [each.loss for each in found.transitions[:20]] == pytest.approx(
         [G * 0.36 * 0.64**k for k in range(20)], rel=1e-10
     )
     balance = 0.5 * found.rates[:, 0] ** 2 + G * found.values[:, 0] - found.work
@@ -82,8 +82,8 @@ def test_rebounds_that_pile_up_end_in_rest() -> None:
     assert found.outcome.status == "ok"
     assert kinds(found)[-1] == "rest"
     assert kinds(found).count("rest") == 1
-    assert found.happenings[-1].time == pytest.approx(3.0 * math.sqrt(2.0 / G), abs=1e-7)
-    late = found.times > found.happenings[-1].time
+    assert found.transitions[-1].time == pytest.approx(3.0 * math.sqrt(2.0 / G), abs=1e-7)
+    late = found.times > found.transitions[-1].time
     assert np.abs(found.values[late]).max() < 1e-14
     assert not found.rates[late].any()
 
@@ -93,7 +93,7 @@ def test_a_table_that_falls_faster_than_the_ball_lets_it_go() -> None:
     scene = change(scene_here("bouncing-ball"), parameters={"e": 0.0, "a": 0.05, "omega": 20.0})
     found = motion(scene, 1.2)
     assert kinds(found)[:2] == ["rest", "release"]
-    leaves = found.happenings[1].time
+    leaves = found.transitions[1].time
     turn = math.asin(G / (0.05 * 400.0))
     assert (20.0 * leaves - turn) % (2.0 * math.pi) == pytest.approx(0.0, abs=1e-9)
 
@@ -105,7 +105,7 @@ def test_an_estimate_stays_true_across_impacts(method: str) -> None:
     found, truth = motion(scene, 2.0, 1e-6, method), motion(scene, 2.0, 1e-12)
     assert found.estimate is not None
     assert (np.abs(found.values - truth.values)[:, 0] <= found.estimate.errors + 1e-12).all()
-    for one, other in zip(found.happenings, truth.happenings, strict=True):
+    for one, other in zip(found.transitions, truth.transitions, strict=True):
         assert one.error is not None
         assert abs(one.time - other.time) <= 2.0 * one.error + 1e-12
 
@@ -115,7 +115,7 @@ def test_a_string_goes_slack_and_catches(method: str) -> None:
     """Slack where v0² = 3 g y + 2 g l, a parabola from there; the jerk takes what went along the string."""
     found = motion(scene_here("catching-pendulum"), 1.4, method=method)
     assert kinds(found)[:2] == ["release", "rest"]
-    slack, taut = (each.time for each in found.happenings[:2])
+    slack, taut = (each.time for each in found.transitions[:2])
     y = (5.8**2 - 2.0 * G) / (3.0 * G)
     x, speed = math.sqrt(1.0 - y * y), math.sqrt(G * y)
     vx, vy = -speed * y, speed * x
@@ -124,7 +124,7 @@ def test_a_string_goes_slack_and_catches(method: str) -> None:
     late = vx**2 + (vy - G * flight) ** 2
     end = np.array([x + vx * flight, y + vy * flight - 0.5 * G * flight**2])
     along = float(end @ [vx, vy - G * flight])
-    assert found.happenings[1].loss == pytest.approx(0.5 * along**2, rel=1e-7)
+    assert found.transitions[1].loss == pytest.approx(0.5 * along**2, rel=1e-7)
     assert late > along**2
     assert np.hypot(*found.values.T).max() < 1.0 + 1e-9
 
@@ -146,7 +146,7 @@ def test_dry_friction_shifts_the_centre_of_every_half_swing(method: str) -> None
             break
     truth[found.times > stop] = start
     assert kinds(found) == ["turn"] * 6 + ["stick"]
-    assert found.happenings[-1].time == pytest.approx(stop, abs=1e-10)
+    assert found.transitions[-1].time == pytest.approx(stop, abs=1e-10)
     assert np.abs(found.values[:, 0] - truth).max() < 1e-9
     assert found.outcome.status == "ok"
 
@@ -158,8 +158,8 @@ def test_a_block_on_a_belt_sticks_until_the_spring_pulls_it_off(method: str) -> 
     spring = {"kind": "potential", "name": "spring", "energy": "2*x^2"}
     found = motion(on_line([spring, load], value=0.75, rate=0.5), 8.0, 1e-11, method)
     assert kinds(found)[:4] == ["slip", "stick", "slip", "stick"]
-    slips = [each.time for each in found.happenings if each.kind == "slip"]
-    sticks = [each.time for each in found.happenings if each.kind == "stick"]
+    slips = [each.time for each in found.transitions if each.kind == "slip"]
+    sticks = [each.time for each in found.transitions if each.kind == "stick"]
     assert slips[0] == pytest.approx(0.0, abs=1e-12)
     assert slips[1] - sticks[0] == pytest.approx(2.0 * (3.0 - 1.0) / (4.0 * 0.5), abs=1e-10)
     slide = (math.pi + 2.0 * math.atan2(0.5, 2.0 * (3.0 - 1.0) / 4.0)) / 2.0  # about x = 1/4 with ω = 2
@@ -187,7 +187,7 @@ def test_two_frictions_stick_and_slip_by_themselves(method: str) -> None:
     assert (found.values[:, 0] == -1.0).all()  # the spring pulls with 8 at most
     t = found.times[found.times < math.pi / 2.0]
     assert found.values[: len(t), 1] == pytest.approx(-0.75 + 1.75 * np.cos(2.0 * t), abs=1e-9)
-    assert [(each.name, each.kind) for each in found.happenings] == [("light", "turn")] * 2
+    assert [(each.name, each.kind) for each in found.transitions] == [("light", "turn")] * 2
 
 
 @CLOSED_FORMS
@@ -199,7 +199,7 @@ def test_no_step_runs_over_the_kink_of_a_spring_on_one_side(method: str) -> None
     hits, leaves = 0.5, 0.5 + math.pi / 4.0
     truth = np.where(t < hits, 1.0 - 2.0 * t, np.where(t < leaves, -0.5 * np.sin(4.0 * (t - hits)), 2.0 * (t - leaves)))
     assert np.abs(found.values[:, 0] - truth).max() < 1e-13
-    assert found.happenings == ()
+    assert found.transitions == ()
 
 
 def test_the_answer_tells_events() -> None:

@@ -1,4 +1,4 @@
-"""A run that goes on behind events: stretches of smooth motion, one behind the other, each in its mode.
+"""A run of a hybrid system, which goes on behind events: one smooth stretch behind the other, each in its mode.
 
 Every stretch is a run of its own, ended where a watched value falls through zero, located on the step's polynomial; so
 no step runs over a kink. Rebounds that pile up end in rest. What an impact takes from the energy goes into ∫P dt.
@@ -16,10 +16,10 @@ from .integration import Flag
 from .kernels.loop import Result
 from .kernels.motion import FINE, MANY_EVENTS, STEP_LIMIT, UNSETTLED
 from .method import Method
-from .passages import Happening, Moment, UnsettledError, begun, passed
 from .pieces import Pieces
 from .problem import Floats, Problem
 from .run import Mesh, Run, Steps, run
+from .transitions import ModeState, Transition, UnsettledError, begun, passed
 
 MOST = 5000  # events in one run
 AT_ONCE = 50  # events at the same time, by rounding
@@ -40,7 +40,7 @@ class _Record:
     conditioning: float = 1.0
     wall_time: float = 0.0
     meshes: list[Mesh] = field(default_factory=list)
-    happenings: list[Happening] = field(default_factory=list)
+    transitions: list[Transition] = field(default_factory=list)
     last: float = 0.0
     at_once: int = 0
 
@@ -80,38 +80,38 @@ def _mesh(problem: Problem, found: Run) -> Mesh:
 
 def run_on(problem: Problem, modes: Modes, method: Method, times: Floats, cancelled: Flag, steps: Steps) -> Run:
     """The run of a problem in modes, with samples at `times`, shape (samples,), as far as it comes."""
-    moment = begun(problem, modes)
-    record = _Record(np.zeros((times.size, moment.problem.state.size)))
+    current = begun(problem, modes)
+    record = _Record(np.zeros((times.size, current.problem.state.size)))
     record.out[0, : 2 * problem.degrees] = problem.state[: 2 * problem.degrees]
     while True:
-        stretch, ahead = _problem(moment, record.steps), _ahead(times, moment.time)
-        found = run(stretch, method, ahead, cancelled, _after(steps, moment.time))
+        stretch, ahead = _problem(current, record.steps), _ahead(times, current.time)
+        found = run(stretch, method, ahead, cancelled, _after(steps, current.time))
         record.add(stretch, found)
         if found.event is None or found.result.outcome == STEP_LIMIT:
             return _whole(record, times, found.result.outcome, float(found.result.reached), found)
         event = found.event
         _fill(record, times, event, problem.degrees)
         if event.index < len(modes.ending):
-            return _ended(record, times, modes, _falling(moment, event), found)
+            return _ended(record, times, modes, _falling(current, event), found)
         try:
-            moment = _next(moment, event, record)
+            current = _next(current, event, record)
         except UnsettledError:
             return _whole(record, times, UNSETTLED, event.time, found)
-        if len(record.happenings) >= MOST or record.at_once >= AT_ONCE:
+        if len(record.transitions) >= MOST or record.at_once >= AT_ONCE:
             return _whole(record, times, MANY_EVENTS, event.time, found)
-        if moment.time >= times[-1]:
+        if current.time >= times[-1]:
             return _whole(record, times, FINE, float(times[-1]), found)
 
 
-def _problem(moment: Moment, taken: int) -> Problem:
+def _problem(current: ModeState, taken: int) -> Problem:
     """The problem of the next stretch."""
-    problem = moment.problem
-    own = problem.parameters[: len(problem.parameters) - len(moment.mode.parameters)]
+    problem = current.problem
+    own = problem.parameters[: len(problem.parameters) - len(current.mode.parameters)]
     return replace(
         problem,
-        parameters=(*own, *moment.mode.parameters),
-        values=tuple(moment.q.tolist()),
-        rates=tuple(moment.v.tolist()),
+        parameters=(*own, *current.mode.parameters),
+        values=tuple(current.q.tolist()),
+        rates=tuple(current.v.tolist()),
         step_limit=max(problem.step_limit - taken, 1),
     )
 
@@ -137,10 +137,10 @@ def _fill(record: _Record, times: Floats, event: Event, degrees: int) -> None:
         record.filled += 1
 
 
-def _next(moment: Moment, event: Event, record: _Record) -> Moment:
+def _next(current: ModeState, event: Event, record: _Record) -> ModeState:
     """The state behind an event; what it is called is recorded, with the energy that it took."""
-    n = len(moment.q)
-    before = replace(moment, time=event.time, q=event.state[:n].copy(), v=event.state[n : 2 * n].copy())
+    n = len(current.q)
+    before = replace(current, time=event.time, q=event.state[:n].copy(), v=event.state[n : 2 * n].copy())
     after, name, kind = passed(before, event.index)
     loss = before.kinetic - after.kinetic if kind in ("impact", "rest") else 0.0
     reached = record.moved(event, after.time, n)
@@ -150,14 +150,14 @@ def _next(moment: Moment, event: Event, record: _Record) -> Moment:
     record.last = event.time
     if kind != "switch":
         left = np.array([*after.q, *after.v, record.work][: event.state.size])
-        record.happenings.append(Happening(name, after.time, kind, reached, left, loss))
+        record.transitions.append(Transition(name, after.time, kind, reached, left, loss))
     return after
 
 
-def _falling(moment: Moment, event: Event) -> Event:
+def _falling(current: ModeState, event: Event) -> Event:
     """An event that ends the motion, with the first two derivatives of its value along the motion by differences."""
-    n = len(moment.q)
-    at = replace(moment, time=event.time, q=event.state[:n].copy(), v=event.state[n : 2 * n].copy())
+    n = len(current.q)
+    at = replace(current, time=event.time, q=event.state[:n].copy(), v=event.state[n : 2 * n].copy())
     rates = at.accelerations
     before, now, after = (
         replace(at, time=at.time + h, q=at.q + h * (at.v + 0.5 * h * rates), v=at.v + h * rates).watched[event.index]
@@ -187,6 +187,6 @@ def _whole(record: _Record, times: Floats, outcome: int, reached: float, found: 
         record.wall_time,
         found.steps,
         held=found.held,
-        happenings=tuple(record.happenings),
+        transitions=tuple(record.transitions),
         meshes=tuple(record.meshes),
     )
