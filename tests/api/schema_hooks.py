@@ -1,13 +1,23 @@
-"""What schemathesis is told of this API: how a body of TOML is written, and when 504 is an answer."""
+"""What schemathesis is told of this API: which cases it makes, how a body of TOML is written, when 504 is an answer."""
 
 from __future__ import annotations
 
+import os
 import sys
 from typing import Any
+from zlib import crc32
 
 import schemathesis
 
 SOONEST = 0.2  # seconds: the least bound of any computation
+SHARE = "SCHEMA_ONE_IN"  # of so many cases one is made; which ones depends on what is sent, not on their order
+
+
+@schemathesis.hook
+def filter_case(_context: Any, case: Any) -> bool:
+    """Whether a request is among those that a run takes."""
+    sent = repr((case.method, case.path, case.path_parameters, case.query, case.headers, case.body))
+    return crc32(sent.encode("utf-8", "backslashreplace")) % int(os.environ.get(SHARE, "1")) == 0
 
 
 @schemathesis.serializer("application/toml")

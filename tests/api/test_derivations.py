@@ -27,7 +27,7 @@ CHAPTERS = [
 ]
 
 
-@pytest.mark.one_in(4)
+@pytest.mark.one_in(6)
 @pytest.mark.parametrize("language", ["de", "en"])
 @pytest.mark.parametrize("scene", scene_ids())
 async def test_every_scene_is_derived(client: httpx.AsyncClient, scene: str, language: str) -> None:

@@ -11,6 +11,14 @@ from tests.e2e.browser import NoBrowser, chromium, started
 from tests.e2e.lecture import Lecture
 from tests.e2e.waiting import PATIENCE
 
+# A browser without a graphics card draws with the processor: at sixty pictures a second half of one goes to a pendulum
+# that nobody looks at. Fifteen show all that tests look for; those of the motion itself are marked `smooth`.
+FEWER_PICTURES = """{
+  const next = window.requestAnimationFrame.bind(window);
+  window.requestAnimationFrame = (draw) => setTimeout(() => next(draw), 50);
+  window.cancelAnimationFrame = clearTimeout;
+}"""
+
 
 @pytest.fixture(params=["sources", "bundle"])
 def either(request: pytest.FixtureRequest, page: Page) -> Iterator[Lecture]:
@@ -49,9 +57,11 @@ def browser() -> Iterator[Browser]:
 
 
 @pytest.fixture
-def page(browser: Browser) -> Iterator[Page]:
+def page(browser: Browser, request: pytest.FixtureRequest) -> Iterator[Page]:
     context = browser.new_context(viewport={"width": 1366, "height": 768}, locale="de-DE")
     context.set_default_timeout(PATIENCE)
+    if not request.node.get_closest_marker("smooth"):
+        context.add_init_script(FEWER_PICTURES)
     yield context.new_page()
     context.unroute_all(behavior="ignoreErrors")  # what a test answered in the service's place may still be under way
     for page in context.pages:

@@ -202,6 +202,7 @@ def test_pointing_works_both_ways(lecture: Lecture) -> None:
     expect(page.locator(".plots .trace.energy-kinetic.lit")).to_have_count(1)
 
 
+@pytest.mark.smooth
 def test_nothing_shifts_while_the_figure_is_used(lecture: Lecture) -> None:
     """Steps with their marks, the instruments that come, a variation: none of them moves what was there."""
     lecture.page.emulate_media(reduced_motion="reduce")

@@ -291,6 +291,7 @@ WATCH = """() => {
 }"""
 
 
+@pytest.mark.smooth
 @pytest.mark.parametrize("motion", ["no-preference", "reduce"])
 def test_terms_fly_to_what_becomes_of_them(hall: Lecture, motion: Literal["no-preference", "reduce"]) -> None:
     page = hall.page

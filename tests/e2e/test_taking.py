@@ -113,6 +113,7 @@ def test_why_there_is_no_film_is_said_with_what_helps(lecture: Lecture) -> None:
         expect(page.get_by_role("alert")).to_contain_text(told)
 
 
+@pytest.mark.smooth
 def test_a_film_plays_what_was_seen(lecture: Lecture, tmp_path: Path) -> None:
     """As long as the part of the motion that the plots show; then the moment is where it was. Stopped, it is kept.
 

@@ -155,6 +155,7 @@ DIRECTIONS = {
 }
 
 
+@pytest.mark.one_in(3)
 @pytest.mark.parametrize("seed", range(24))
 def test_the_statement_says_from_where_an_angle_counts(seed: int) -> None:
     """The bob is where the words say at φ = 0, and goes round as they say when φ grows; so does the drawing."""

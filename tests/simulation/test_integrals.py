@@ -55,6 +55,7 @@ def along(system: System, value: sp.Expr, found: Trajectory) -> tuple[Floats, Fl
     return np.sum(terms, axis=0), np.sum(np.abs(terms), axis=0)
 
 
+@pytest.mark.one_in(2)
 @pytest.mark.parametrize("name", scene_ids())
 def test_integrals_are_constant(name: str) -> None:
     scene = load_scene(name)
