@@ -13,6 +13,8 @@ _SPACE = re.compile(
     r"|textstyle|limits|nolimits|nonumber|notag|hfill|allowbreak)(?![A-Za-z]))+"
 )
 _COMMAND = re.compile(r"\\(?:[A-Za-z]+\*?|.)", re.DOTALL)
+# A row may end with a star and the distance to the next one, \\[2pt]; a bracket without a length opens the next row.
+_DISTANCE = re.compile(r"\*?\s*\[\s*[-+]?(?:\d+\.?\d*|\.\d+)\s*(?:pt|mm|cm|in|ex|em|bp|pc|mu|sp|dd|cc)\s*\]|\*")
 # Two backslashes end a row, also before the letters "end".
 _ENVIRONMENT = re.compile(r"\\\\|\\(begin|end)\s*\{([A-Za-z*]{1,20})\}")
 
@@ -165,6 +167,7 @@ def cells(text: str, inside: Range) -> list[list[Range]]:
             elif command == "\\":
                 rows[-1].append((start, at))
                 rows.append([])
+                source.match(_DISTANCE)
                 start = source.at
         else:
             source.at += 1
