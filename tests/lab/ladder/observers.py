@@ -34,6 +34,7 @@ DIMENSIONS: Mapping[str, Mapping[str, tuple[int, int, int]]] = {
     "continuum": {"density": (0, 0, 1), "position": (1, 0, 0)},
     "gravity": {"acceleration": (1, -2, 0)},
     "potential": {"energy": (2, -2, 1)},
+    "generalized-potential": {"energy": (2, -2, 1)},
     "dissipation": {"function": (2, -3, 1)},
     "spring": {"stiffness": (0, -2, 1), "rest_length": (1, 0, 0)},
     "damper": {"coefficient": (0, -1, 1), "damping": (0, -1, 1)},
