@@ -60,10 +60,15 @@ class Source:
         return found
 
     def command(self) -> str:
-        """Step over the command ahead; its name without backslash, "" for a lone backslash at the end."""
+        """Step over the command ahead, and the distance behind the end of a row; its name without backslash, "" for
+        a lone backslash at the end.
+        """
         found = self.match(_COMMAND)
         self.at += found is None
-        return found[0][1:] if found else ""
+        name = found[0][1:] if found else ""
+        if name == "\\":
+            self.match(_DISTANCE)
+        return name
 
     def peek_command(self) -> str:
         """The name of the command ahead without stepping over it."""
@@ -167,7 +172,6 @@ def cells(text: str, inside: Range) -> list[list[Range]]:
             elif command == "\\":
                 rows[-1].append((start, at))
                 rows.append([])
-                source.match(_DISTANCE)
                 start = source.at
         else:
             source.at += 1
