@@ -4,11 +4,16 @@ from __future__ import annotations
 
 import random
 import re
+import resource
+from collections.abc import Iterator
+from pathlib import Path
 
 import pytest
 import sympy as sp
 
+from deltaq.derivation.engine import derive
 from deltaq.derivation.factoring import factor_list
+from deltaq.mechanics.document import read_scene
 
 LETTERS = sp.symbols("a b c x y", positive=True)
 x, y = LETTERS[3:]
@@ -47,6 +52,16 @@ def test_known_ones(expression: sp.Expr, number: int, factors: list[tuple[sp.Exp
     assert (known, set(found)) == (number, set(factors))
 
 
+@pytest.fixture
+def limited() -> Iterator[None]:
+    """A gigabyte more than there is now, and what takes longer than seconds fails by it."""
+    soft, hard = resource.getrlimit(resource.RLIMIT_AS)
+    used = int(Path("/proc/self/statm").read_text(encoding="ascii").split()[0]) * resource.getpagesize()
+    resource.setrlimit(resource.RLIMIT_AS, (used + 2**30, hard))
+    yield
+    resource.setrlimit(resource.RLIMIT_AS, (soft, hard))
+
+
 def test_a_quotient_is_no_polynomial() -> None:
     with pytest.raises(sp.PolynomialError, match=f"^{re.escape('a quotient: x/y + 1')}$"):
         factor_list(1 + x / y)
@@ -60,3 +75,28 @@ def test_many_letters() -> None:
     upper = sp.numer(sp.together(force))
     number, factors = factor_list(upper)
     assert sp.expand(number * sp.Mul(*(factor**power for factor, power in factors)) - upper) == 0
+
+
+def test_powers_of_a_million_are_left_as_they_are(limited: None) -> None:
+    """As of exp(−v/v₀) with a small v₀: their factors are more than any memory holds."""
+    for steep in (x**1_000_000 * y - x**1_000_000 - y + 1, sp.exp(x / sp.Rational(3, 10**7)) - y):
+        number, found = factor_list(steep * (x + 1))
+        assert (number, set(found)) == (1, {(steep, 1), (x + 1, 1)})
+
+
+def test_a_small_speed_in_a_friction_is_derived(limited: None) -> None:
+    """Sliding friction that falls over a small speed: displayed, searched for equilibria, verified."""
+    scene = read_scene(
+        {
+            "format": 1, "id": "falling", "title": "falling", "dimension": 2,
+            "coordinates": [{"name": "x"}],
+            "parameters": [{"name": "m", "value": 1.0}, {"name": "v_s", "value": 0.30000001}],
+            "bodies": [{"name": "p", "kind": "particle", "mass": "m", "position": ["x", "0"]}],
+            "loads": [
+                {"kind": "friction", "name": "belt", "coordinate": "x", "force": "m*(1 + exp(-abs(dot(x))/v_s))"},
+                {"kind": "potential", "name": "spring", "energy": "(1 - exp(-x/0.000003))^2 + x^2"},
+            ],
+        }
+    )  # fmt: skip
+    _, found = derive(scene)
+    assert all(step.verified for chapter in found.chapters for step in chapter.steps)

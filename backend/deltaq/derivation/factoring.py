@@ -9,12 +9,13 @@ import sympy as sp
 from flint import Ordering, fmpq, fmpq_mpoly_ctx
 
 Powers = list[tuple[sp.Expr, sp.Expr]]
+HIGHEST = 300  # degree in one letter: of xⁿ − 1 with n a million FLINT's search takes gigabytes and hours
 
 
 def factor_list(expression: sp.Expr) -> tuple[sp.Expr, Powers]:
     """A number c and irreducible factors with their powers, c·Π fᵢⁿⁱ = expression, in the letters and functions in it.
 
-    Raises sp.PolynomialError for what is no polynomial.
+    A sum of a degree above HIGHEST in a letter is left as it is. Raises sp.PolynomialError for what is no polynomial.
     """
     number: sp.Expr = sp.Integer(1)
     found: dict[sp.Expr, sp.Expr] = {}
@@ -34,6 +35,8 @@ def factor_list(expression: sp.Expr) -> tuple[sp.Expr, Powers]:
 
 def _of_sum(expression: sp.Expr) -> tuple[sp.Expr, Powers]:
     """Factors of a lower degree in the first letter come first."""
+    if _is_steep(expression):
+        return sp.Integer(1), [(expression, sp.Integer(1))]
     poly = sp.Poly(expression)
     if not (poly.domain.is_ZZ or poly.domain.is_QQ):  # roots of numbers: few letters, which SymPy is made for
         return sp.factor_list(expression)  # type: ignore[no-any-return]
@@ -49,6 +52,13 @@ def _of_sum(expression: sp.Expr) -> tuple[sp.Expr, Powers]:
         found.append((primitive, sp.Integer(int(power))))
     found.sort(key=lambda one: (one[0].degree(), one[1], sorted(one[0].as_dict().items())))
     return rest, [(factor.as_expr(), power) for factor, power in found]
+
+
+def _is_steep(expression: sp.Expr) -> bool:
+    """Whether a power of a letter, or of one as exp(x/d) in exp(n x/d), is above HIGHEST."""
+    exponents = (power.as_base_exp()[1] for power in expression.atoms(sp.Pow, sp.exp))
+    numbers = (term.as_coeff_Mul()[0] for exponent in exponents for term in sp.Add.make_args(exponent))
+    return any(abs(number.p) > HIGHEST for number in numbers if number.is_Rational)
 
 
 def _fraction(number: sp.Expr) -> fmpq:

@@ -19,6 +19,7 @@ MAX_TERMS = 160
 TRIED = 2  # splits that are followed, of those that look shortest
 SLACK = 2  # how much longer than the plain sum a split of many terms may look
 FEW = 6  # terms of which every split may look longer
+HIGHEST = 200  # degree up to which factors are looked for: of xⁿ − 1 with n a million it takes gigabytes
 MAX_SINGLE = 8  # terms up to which each single generator is tried
 
 Key = frozenset[tuple[Exponents, int]]
@@ -102,7 +103,9 @@ class Planner:
         return [*apart, *(parts for _, parts in others[:TRIED])]
 
     def _factored(self, poly: Poly) -> Product | None:
-        """The factors of a primitive polynomial, each a sum; None if it has none."""
+        """The factors of a primitive polynomial, each a sum; None if it has none, or its degree is above HIGHEST."""
+        if max(map(max, poly)) > HIGHEST:
+            return None
         number, factors = self._alphabet.context.from_dict(poly).factor()
         if len(factors) == 1 and factors[0][1] == 1:
             return None
