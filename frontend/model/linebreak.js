@@ -122,10 +122,9 @@ const linesOf = (sum, most) => lined(termsOf(sum, most), most);
 
 /**
  * The rows of a formula, each at most `part` of its widest one, as far as they can be broken.
- * @param {string} latex @param {number} part between 0 and 1
+ * @param {{text: string, gap: string}[]} given @param {number} part between 0 and 1
  */
-export function brokenRows(latex, part) {
-  const given = rowsOf(latex);
+export function brokenRows(given, part) {
   const most = part * Math.max(...given.map(({ text }) => weight(text)));
   return hung(named(given, most, sidesOf), most).flatMap(({ text, gap }) => {
     const lines = broken(text, most);

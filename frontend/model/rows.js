@@ -1,6 +1,7 @@
 /** A long formula as rows that are typeset one by one: what stands in each, how high it will be, and at which size all of them fit. */
 
 import { brokenRows, rowsOf, sidesOf } from "./linebreak.js";
+import { joinedRows } from "./joining.js";
 import { sizeOf } from "./measure.js";
 
 /** @typedef {{left: string, right: string, above: number, below: number}} Row  above and below the baseline, in em */
@@ -15,10 +16,13 @@ const MARGIN = 1.05;
 /** A row is never less high than a bracket. */
 const STRUT = { height: 0.84, depth: 0.36 };
 
-/** @param {{text: string, gap: string}} row as LaTeX has it, with the gap below it */
-function rowOf({ text, gap }) {
+/** Rows are broken at parts of their width that are powers of this one: sizes that are nearly the same have the same rows. */
+const GRID = 0.95;
+
+/** @param {import("./joining.js").Row} row as LaTeX has it, with the gap below it @param {typeof sizeOf} measure */
+function rowOf({ text, gap }, measure) {
   const [left, right] = sidesOf(text).map((side) => side.replace(/&$/, "").trim());
-  const [before, after] = [sizeOf(left), sizeOf(right)];
+  const [before, after] = [measure(left), measure(right)];
   const [, below] = gap.match(/\[([\d.]+)em\]/) ?? [];
   return {
     left,
@@ -29,27 +33,65 @@ function rowOf({ text, gap }) {
   };
 }
 
-/** @param {ReturnType<typeof rowsOf>} given @param {number} room */
-function fitted(given, room) {
-  const rows = given.map(rowOf);
-  const wide = [0, 1].map((side) => Math.max(...rows.map(({ widths }) => widths[side])));
-  return { rows, part: Math.min(1, room / ((wide[0] + wide[1]) * MARGIN)) };
+/** What a function has answered to a text is not asked again. @template T @param {(text: string) => T} asked @returns {(text: string) => T} */
+function remembering(asked) {
+  /** @type {Map<string, T>} */
+  const known = new Map();
+  return (text) => {
+    const found = known.get(text) ?? asked(text);
+    known.set(text, found);
+    return found;
+  };
 }
 
-/**
- * The rows of a formula in a place `room` em wide; they are broken where they would become too small.
- * @param {string} latex @param {number} room
- * @param {{bearable: number, smallest: number}} least  parts of their size: rows are rather broken than smaller than is bearable, and again where they are still smaller than the smallest
- * @returns {Plan}
- */
-export function planned(latex, room, { bearable, smallest }) {
-  const whole = fitted(rowsOf(latex), room);
-  if (whole.part >= bearable) return whole;
-  const share = whole.part / Math.max(bearable, COMFORTABLE);
-  let best = whole;
-  for (const one of SHARES) {
-    best = fitted(brokenRows(latex, one * share), room);
-    if (best.part >= smallest) break;
+/** @param {number} part */
+const onGrid = (part) => GRID ** Math.max(0, Math.ceil(Math.log(part) / Math.log(GRID)));
+
+/** A formula that is to be laid out, at one size after the other: what it is measured by is worked out once. @param {string} latex */
+export function layoutOf(latex) {
+  const given = rowsOf(latex);
+  const measure = remembering(sizeOf);
+  /** @type {Map<string, {rows: ReturnType<typeof rowOf>[], wide: number}>} */
+  const measured = new Map();
+
+  /** @param {import("./joining.js").Row[]} rows @param {number} part  of the widest that each may be at most */
+  function broken(rows, part) {
+    const key = `${part.toFixed(4)}\n${rows.map(({ text }) => text).join("\n")}`;
+    const known = measured.get(key);
+    if (known) return known;
+    const set = (part < 1 ? brokenRows(rows, part) : rows).map((row) => rowOf(row, measure));
+    const wide = [0, 1].map((side) => Math.max(...set.map(({ widths }) => widths[side])));
+    const made = { rows: set, wide: wide[0] + wide[1] };
+    measured.set(key, made);
+    return made;
   }
-  return best;
+
+  return {
+    /**
+     * Its rows in a place `room` em wide; they are broken where they would become too small.
+     * @param {number} room
+     * @param {{bearable: number, smallest: number, close?: boolean}} form  parts of their size: rows are rather broken than
+     *   smaller than is bearable, and again where they are still smaller than the smallest; close: rows that have room in one are one
+     * @returns {Plan}
+     */
+    planned(room, { bearable, smallest, close = false }) {
+      const start = close ? joinedRows(given, room / MARGIN, measure) : given;
+      const fitted = (/** @type {number} */ share) => {
+        const { rows, wide } = broken(start, share);
+        return { rows, part: Math.min(1, room / (wide * MARGIN)) };
+      };
+      let best = fitted(1);
+      if (best.part >= bearable) return best;
+      const share = best.part / Math.max(bearable, COMFORTABLE);
+      for (const one of SHARES) {
+        const next = fitted(onGrid(one * share));
+        if (next.part > best.part) best = next;
+        if (best.part >= smallest) break;
+      }
+      return best;
+    },
+  };
 }
+
+/** The rows of a formula in one place. @param {string} latex @param {number} room @param {Parameters<ReturnType<typeof layoutOf>["planned"]>[1]} form */
+export const planned = (latex, room, form) => layoutOf(latex).planned(room, form);

@@ -1,6 +1,7 @@
 /** Display formulas at the sizes at which they fit their columns; the long ones in rows, which are fetched when there is one. */
 
-import { bearableIn, resize, typeset } from "./typesetting.js";
+import { rowsOf } from "../model/linebreak.js";
+import { bearableIn, closeIn, resize, typeset } from "./typesetting.js";
 
 /** LaTeX of more letters is typeset row by row. */
 const LONG = 350;
@@ -83,9 +84,14 @@ export class Fitting {
       this.#widths.set(element, width);
       if (part < 1) resize(element, part);
       else element.classList.remove("wide");
-      // A lecture would rather have more lines than smaller ones.
-      if (part < bearable) void this.#giveRows(element);
+      // A lecture would rather have more lines than smaller ones, and lines beside each other where that is larger.
+      if (part < bearable || this.#sharesRows(element)) void this.#giveRows(element);
     }
+  }
+
+  /** @param {HTMLElement} element */
+  #sharesRows(element) {
+    return rowsOf(this.#sources.get(element) ?? "").length > 1 && closeIn(getComputedStyle(element));
   }
 
   /** A formula of a long step has been scrolled to. @param {HTMLElement} target */

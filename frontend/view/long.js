@@ -1,7 +1,7 @@
 /** A long formula: its rows, and what is said of it. */
 
-import { planned } from "../model/rows.js";
-import { SMALLEST, bearableIn, isNamed, resize, typeset } from "./typesetting.js";
+import { layoutOf } from "../model/rows.js";
+import { SMALLEST, bearableIn, closeIn, isNamed, resize, typeset } from "./typesetting.js";
 
 /** @typedef {{cell: HTMLElement, latex: string}} Due  a cell, and what is to stand in it */
 
@@ -29,9 +29,11 @@ const shrink = (element, part) => resize(element, Math.floor(part * 100) / 100);
 
 export class Long {
   latex = "";
-  /** For which it was planned: pixels, and em. */
+  #layout = layoutOf("");
+  /** For which it was planned: pixels, em, and whether rows share rows. */
   width = 0;
   #room = 0;
+  #close = false;
   #grid = made("div", "rows");
   #said = made("span", "katex");
   /** What is missing yet. @type {Due[]} */
@@ -46,6 +48,7 @@ export class Long {
   tell(latex) {
     if (this.latex === latex) return false;
     Object.assign(this, { latex, width: 0 });
+    this.#layout = layoutOf(latex);
     this.#due = [];
     // What stands there already stays until the rows have their places.
     if (!this.element.firstChild) this.element.append(this.#grid, this.#said);
@@ -59,12 +62,10 @@ export class Long {
     if (!width) return false;
     const style = getComputedStyle(element);
     const room = roomOf(element, style);
-    if (this.width === width && Math.abs(this.#room - room) < 0.01) return false;
-    this.#room = room;
-    const { rows, part } = planned(this.latex, room, {
-      bearable: bearableIn(style),
-      smallest: SMALLEST,
-    });
+    const close = closeIn(style);
+    if (this.width === width && Math.abs(this.#room - room) < 0.01 && this.#close === close) return false;
+    [this.#room, this.#close] = [room, close];
+    const { rows, part } = this.#layout.planned(room, { bearable: bearableIn(style), smallest: SMALLEST, close });
     this.width = width;
     shrink(element, part);
     this.#place(rows);

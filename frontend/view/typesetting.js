@@ -34,6 +34,9 @@ export function typeset(element, latex, display, output = isNamed(element) ? "ht
 /** How small a formula may become where it stands. @param {CSSStyleDeclaration} style */
 export const bearableIn = (style) => Number(style.getPropertyValue("--bearable")) || BEARABLE;
 
+/** Whether rows that have room in one row share it where the formula stands. @param {CSSStyleDeclaration} style */
+export const closeIn = (style) => style.getPropertyValue("--rows").trim() === "close";
+
 /** Sets a formula to a part of its size; below the smallest one it scrolls. @param {HTMLElement} element @param {number} part */
 export function resize(element, part) {
   element.style.setProperty("--fit", String(Math.max(SMALLEST, part)));

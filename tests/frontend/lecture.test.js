@@ -2,7 +2,7 @@ import { strict as assert } from "node:assert";
 import { test } from "node:test";
 import { createReceiver, createSender, isId } from "../../frontend/model/lecture/link.js";
 import { keepNotes, noteOf, readNotes, withNote } from "../../frontend/model/lecture/notes.js";
-import { bounds, filling, laidOut } from "../../frontend/model/lecture/filling.js";
+import { better, bounds, filling, formulaOf, laidOut, larger } from "../../frontend/model/lecture/filling.js";
 import { premisesOf, shortForm } from "../../frontend/model/lecture/premises.js";
 import { allOrNone, isConcluded, meant, onwards, partsOf, within } from "../../frontend/model/lecture/stops.js";
 import { clockText, elapsed, STOPPED, toggled } from "../../frontend/model/lecture/timer.js";
@@ -53,7 +53,7 @@ test("the result of a step is there alone or after its substeps, and never among
 });
 
 /** @param {string} latex @param {number} [share] */
-const formula = (latex, share = 1) => ({ latex, share });
+const formula = (latex, share = 1) => formulaOf({ latex, share });
 const SUM = Array.from({ length: 12 }, (_, i) => `a_{${i}} b_{${i}}`).join(" + ");
 
 test("a short formula grows to seven percent of the screen and no further", () => {
@@ -76,8 +76,8 @@ test("formulas fill their pane and do not stand over it", () => {
 test("more room hardly ever makes a formula smaller, however its rows are broken", () => {
   let last = 0;
   for (let width = 300; width < 1600; width += 50) {
-    const { size } = filling([formula(`x = ${SUM}`)], { width, height: 0.5 * width }, 900);
-    const reached = size * laidOut(formula(`x = ${SUM}`), size, width).part;
+    const { size, close } = filling([formula(`x = ${SUM}`)], { width, height: 0.5 * width }, 900);
+    const reached = size * laidOut(formula(`x = ${SUM}`), size, width, close).part;
     assert.ok(reached >= 0.88 * last, `${reached} after ${last} at ${width}`);
     last = reached;
   }
@@ -88,6 +88,19 @@ test("without room formulas stay legible, on a phone, too", () => {
   assert.equal(size, bounds(360).least);
   assert.equal(size, 15);
   assert.equal(far, false);
+});
+
+test("equations stand beside each other only where they are read from the last row by that, or are larger", () => {
+  const many = [formula(`\\begin{aligned}${Array.from({ length: 9 }, (_, i) => `x_{${i}} &= ${i}`).join(" \\\\ ")}\\end{aligned}`)];
+  const [wide, low] = [{ width: 1200, height: 260 }, { width: 1200, height: 700 }].map((pane) => filling(many, pane, 768));
+  assert.deepEqual([wide.close, wide.far, low.close, low.far], [true, true, false, true]);
+  assert.equal(filling([formula(SUM)], { width: 300, height: 100 }, 768).close, false);
+});
+
+test("of two arrangements the first that is read from the last row is taken, else the larger", () => {
+  const of = (/** @type {number} */ reached, /** @type {boolean} */ far) => ({ size: reached, reached, far, close: false });
+  const [near, far, farther] = [of(20, false), of(40, true), of(50, true)];
+  assert.deepEqual([better(far, farther), better(near, far), better(near, of(30, false)).reached, larger(far, farther), larger(of(49.9, true), farther).reached], [far, far, 30, farther, 49.9]);
 });
 
 /** @type {[string, string, string][]} */

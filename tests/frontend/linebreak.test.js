@@ -2,12 +2,12 @@ import { strict as assert } from "node:assert";
 import { createRequire } from "node:module";
 import { test } from "node:test";
 import { weight } from "../../frontend/model/latex.js";
-import { brokenRows } from "../../frontend/model/linebreak.js";
+import { brokenRows, rowsOf } from "../../frontend/model/linebreak.js";
 
 const katex = createRequire(new URL("../../frontend/package.json", import.meta.url))("katex");
 
 /** As LaTeX. @param {string} latex @param {number} part */
-const broken = (latex, part) => `\\begin{aligned}${brokenRows(latex, part).map(({ text, gap }) => text + gap).join("")}\\end{aligned}`;
+const broken = (latex, part) => `\\begin{aligned}${brokenRows(rowsOf(latex), part).map(({ text, gap }) => text + gap).join("")}\\end{aligned}`;
 
 const CASES = [
   ["what is short enough stays", "\\begin{aligned}a &= b\\end{aligned}", 1, "\\begin{aligned}a &= b\\end{aligned}"],

@@ -72,3 +72,32 @@ test("what cannot be broken is one row, smaller than any", () => {
   assert.equal(rows.length, 1);
   assert.ok(part < LEAST.smallest);
 });
+
+const EQUATIONS = "\\begin{aligned}M &= a \\\\[0.4em] &= \\begin{bmatrix} b & 0 \\\\ 0 & c \\end{bmatrix} \\\\[0.85em] x &= 1 \\\\ y &= 2 \\\\[0.4em] & u = v \\\\ \\;\\Longleftrightarrow\\; & v - u = 0\\end{aligned}";
+const CLOSE = { ...LEAST, close: true };
+/** Its letters and signs, without commands and layout. @param {string} latex */
+const said = (latex) => latex.replace(/\\\\\[[^\]]*\]|\\(?:begin|end)\{\w+\}|\\[a-zA-Z]+/g, "").replace(/[^\w=-]/g, "");
+
+/** @type {[string, number, string[]][]} */
+const JOINED = [
+  ["all in one where there is room", 40, ["M = a = [] x = 1 y = 2", "u = v <=> v - u = 0"]],
+  ["what an equation is equal to stays with it", 13, ["M = a = []", "x = 1 y = 2", "u = v <=> v - u = 0"]],
+  ["an equation that needs two rows stands alone", 7.2, ["M = a", "= []", "x = 1", "y = 2", "u = v", "<=> v - u = 0"]],
+];
+for (const [name, room, wanted] of JOINED)
+  test(`equations share rows as far as they have room: ${name}`, () => {
+    const { rows, part } = planned(EQUATIONS, room, CLOSE);
+    const short = rows.map(({ left, right }) => `${left} ${right}`.replace(/\\begin.*?\\end\{bmatrix\}/g, "[]").replace(/\\;|\\qquad/g, "").replace("\\Longleftrightarrow", "<=>").replace(/\s+/g, " ").trim());
+    assert.deepEqual(short, wanted);
+    assert.equal(part, 1);
+    for (const { left, right } of rows) katex.renderToString(`{\\displaystyle ${left}{}${right}}`);
+  });
+
+test("rows that share rows say the same in the same order, and none is wider than its place", () => {
+  for (let room = 6; room < 40; room += 1.5) {
+    const { rows, part } = planned(EQUATIONS, room, CLOSE);
+    assert.equal(said(rows.map(({ left, right }) => left + right).join("")), said(EQUATIONS));
+    const widest = [0, 1].map((side) => Math.max(...rows.map((row) => sizeOf(side ? row.right : row.left).width)));
+    assert.ok((widest[0] + widest[1]) * part <= room);
+  }
+});

@@ -3,7 +3,7 @@
  * Everything is measured by the shorter side of the screen, so that one rule holds for projectors and for phones.
  */
 
-import { planned } from "../rows.js";
+import { layoutOf } from "../rows.js";
 
 /** Parts of the shorter side of the screen: no formula is larger, and none is made smaller to save room. */
 const LARGEST = 0.07;
@@ -27,35 +27,57 @@ const AROUND = 1.1;
 
 /** @typedef {{latex: string, share: number, indent?: number}} Natural  share: of the size of the result that it has; indent: pixels at its side */
 /** @typedef {{width: number, height: number}} Pane  what is left for formulas, in pixels */
+/** @typedef {Natural & {layout: ReturnType<typeof layoutOf>}} Formula */
+/** @typedef {{size: number, reached: number, far: boolean, close: boolean}} Filling  pixels that are asked for, and that are reached, 0 where they do not fit; far: read from the last row; close: rows share rows */
+
+/** What is worked out once for all sizes. @param {Natural} natural @returns {Formula} */
+export const formulaOf = (natural) => ({ ...natural, layout: layoutOf(natural.latex) });
 
 /** @param {number} screen  pixels of the shorter side @returns {{largest: number, least: number}} pixels */
 export const bounds = (screen) => ({ largest: LARGEST * screen, least: Math.max(LEGIBLE, LEAST * screen) });
 
 /**
  * How high a formula is at a size, and at which part of it all of its rows fit.
- * @param {Natural} formula @param {number} size @param {number} width
+ * @param {Formula} formula @param {number} size @param {number} width @param {boolean} [close]
  */
-export function laidOut({ latex, share, indent = 0 }, size, width) {
+export function laidOut({ layout, share, indent = 0 }, size, width, close = false) {
   const own = size * share;
-  const { rows, part } = planned(latex, (width - indent) / (own * LARGER), { bearable: BEARABLE, smallest: SMALLEST });
+  const { rows, part } = layout.planned((width - indent) / (own * LARGER), {
+    bearable: BEARABLE,
+    smallest: SMALLEST,
+    close,
+  });
   const em = rows.reduce((sum, { above, below }) => sum + above + below + GAP, -GAP);
   return { part, height: own * part * (LARGER * em + AROUND) };
 }
 
-/**
- * The size in pixels at which the formulas of a slide fill its pane, and whether that is large enough to be read from
- * the last row. Where a larger size only breaks more rows, or makes them smaller again, the smaller one stays: a formula
- * that cannot be broken shrinks no further than it must.
- * @param {readonly Natural[]} formulas  the first is what it is about @param {Pane} pane @param {number} screen  its shorter side
- */
-export function filling(formulas, pane, screen) {
+/** @param {readonly Formula[]} formulas @param {Pane} pane @param {number} screen @param {boolean} close @returns {Filling} */
+function filled(formulas, pane, screen, close) {
   const { largest, least } = bounds(screen);
   let best = { size: least, reached: 0 };
   for (let size = largest; size >= least && size > SAME * best.reached; size *= FINER) {
-    const set = formulas.map((formula) => laidOut(formula, size, pane.width));
+    const set = formulas.map((formula) => laidOut(formula, size, pane.width, close));
     if (set.reduce((sum, { height }) => sum + height, 0) > FULL * pane.height) continue;
     const reached = size * (set[0]?.part ?? 1);
     if (reached >= SAME * best.reached) best = { size, reached: Math.max(reached, best.reached) };
   }
-  return { size: best.size, far: LARGER * best.reached >= FAR * screen };
+  return { ...best, far: LARGER * best.reached >= FAR * screen, close };
+}
+
+/** @template {Filling} T @param {T} one @param {T} other @returns {T} the one that is larger, the first if they are about the same */
+export const larger = (one, other) => (one.reached >= SAME * other.reached ? one : other);
+
+/** @template {Filling} T @param {T} one @param {T} other @returns {T} the first that is read from the last row, else the larger */
+export const better = (one, other) => (one.far ? one : other.far ? other : larger(one, other));
+
+/**
+ * The size in pixels at which the formulas of a slide fill its pane, and whether that is large enough to be read from
+ * the last row. Where a larger size only breaks more rows, or makes them smaller again, the smaller one stays: a formula
+ * that cannot be broken shrinks no further than it must. Rows share rows only where that makes them larger and they
+ * would not be read from the last row else.
+ * @param {readonly Formula[]} formulas  the first is what it is about @param {Pane} pane @param {number} screen  its shorter side
+ */
+export function filling(formulas, pane, screen) {
+  const open = filled(formulas, pane, screen, false);
+  return open.far ? open : better(open, filled(formulas, pane, screen, true));
 }

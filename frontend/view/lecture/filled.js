@@ -1,9 +1,11 @@
 /** Gives the formulas of a slide the size at which they fill it, and again whenever there is more or less room. */
 
-import { bounds, filling } from "../../model/lecture/filling.js";
+import { better, bounds, filling, formulaOf, larger } from "../../model/lecture/filling.js";
 import { refit } from "../formula.js";
 
 /** @typedef {{latex: string, share: number, depth: number}} Shown  depth: of a substep within its step */
+
+/** @typedef {{dense: string, place: string, close: boolean}} Arranged */
 
 /** What is estimated may be a little off: then all of it becomes smaller by this much, so many times. */
 const SMALLER = 0.93;
@@ -11,6 +13,8 @@ const TRIES = 8;
 
 /** Words and premises as they are, smaller, and only the formulas. */
 const DENSER = ["", "words", "formulas"];
+/** Where the drawing stands in a corner: under it, or beside it as if it were a column. Elsewhere both are the same. */
+const PLACES = ["under", "beside"];
 /** Rem at both sides of a formula. */
 const PADDING = 0.5;
 
@@ -73,15 +77,25 @@ export function createFilled(root) {
 
   /** What is not formula makes room for them, as far as it must. @param {HTMLElement} slide @param {HTMLElement} scroll */
   function roomiest(slide, scroll) {
-    const natural = shown.map(naturalOf);
-    let size = 0;
+    const natural = shown.map(naturalOf).map(formulaOf);
+    const arrange = (/** @type {Arranged} */ { dense, place, close }) => {
+      Object.assign(slide.dataset, { dense, place, rows: close ? "close" : "" });
+      slide.style.setProperty("--corner", `${cornerOf(slide, scroll)}px`);
+    };
+    const filledIn = (/** @type {string} */ dense, /** @type {string} */ place) => {
+      arrange({ dense, place, close: false });
+      return { ...filling(natural, measured(scroll), shorter()), dense, place };
+    };
+    /** @type {ReturnType<typeof filledIn> | null} */
+    let best = null;
     for (const dense of DENSER) {
-      slide.dataset.dense = dense;
-      const filled = filling(natural, measured(scroll), shorter());
-      size = filled.size;
-      if (filled.far) break;
+      const under = filledIn(dense, PLACES[0]);
+      const found = cornerOf(slide, scroll) ? larger(under, filledIn(dense, PLACES[1])) : under;
+      best = best ? better(best, found) : found;
+      if (best.far) break;
     }
-    return size;
+    if (best) arrange(best);
+    return best?.size ?? 0;
   }
 
   /** @param {HTMLElement} slide @param {number} size @param {number} tried */
@@ -108,6 +122,14 @@ export function createFilled(root) {
     shown = formulas;
     fill(false);
   };
+}
+
+/** How far a drawing in the corner of a slide reaches down into what is scrolled, in pixels. @param {HTMLElement} slide @param {HTMLElement} scroll */
+function cornerOf(slide, scroll) {
+  const drawing = slide.parentElement?.querySelector(".drawing")?.getBoundingClientRect();
+  const { left, right } = slide.getBoundingClientRect();
+  if (!drawing || drawing.left <= left + 1 || drawing.left >= right - 1) return 0;
+  return Math.max(0, drawing.bottom - scroll.getBoundingClientRect().top);
 }
 
 /** Substeps stand in. @param {Shown} formula */

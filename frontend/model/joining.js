@@ -1,0 +1,92 @@
+/**
+ * Equations of one formula beside each other, where height is dearer than width: what an equation is equal to goes on in
+ * its row, and equations that are one row each share rows, as far as they have room. An equation that needs more rows, or
+ * is equivalent to another, stands alone, so that it is always clear what follows from what.
+ */
+
+import { sidesOf } from "./linebreak.js";
+
+/** @typedef {{text: string, gap: string}} Row */
+/** @typedef {{left: string, right: string, gap: string}} Part  of a row: up to its mark of alignment, and after it */
+/** @typedef {(latex: string) => number} Wide  in em */
+
+const RELATION = /^(?:\s|\\[,;:!]|\{\}|\\htmlClass\{[^}]*\}\{)*(?:[=<>]|\\(?:approx|equiv|neq|le|ge|to)(?![a-zA-Z]))/;
+const ARROW = /^(?:\s|\\[,;:!])*\\(?:Longleftrightarrow|Rightarrow)(?:\s|\\[,;:!])*$/;
+/** Between two equations, as LaTeX and in em. */
+const [BETWEEN, APART] = [" \\qquad ", 2];
+/** A row beside another has gaps at its relation. */
+const RELATED = 0.3;
+
+/** @param {Row} row @returns {Part} */
+function partOf({ text, gap }) {
+  const [left, right] = sidesOf(text).map((side) => side.replace(/&$/, "").trim());
+  return { left, right, gap };
+}
+
+/** @param {Part} part */
+const isEquivalent = ({ left }) => ARROW.test(left);
+
+/** Whether a row says more of the equation above it. @param {Part} part */
+const goesOn = (part) => isEquivalent(part) || (!part.left && RELATION.test(part.right));
+
+/** Two rows as one. @param {Part} one @param {Part} next @param {string} between @returns {Part} */
+const beside = (one, next, between) => ({
+  left: one.left,
+  right: `${one.right}${between}${next.left} ${next.right}`,
+  gap: next.gap,
+});
+
+/** Each part goes on in the row before it where that has room. @param {Part[]} parts @param {number} room @param {string} between @param {number} apart @param {Wide} wide */
+function inRows(parts, room, between, apart, wide) {
+  /** @type {Part[]} */
+  const rows = [];
+  let taken = Infinity;
+  for (const part of parts) {
+    const needed = apart + wide(part.left) + wide(part.right);
+    const last = rows.at(-1);
+    if (last && taken + needed <= room) {
+      rows[rows.length - 1] = beside(last, part, between);
+      taken += needed;
+    } else {
+      rows.push(part);
+      taken = wide(part.right);
+    }
+  }
+  return rows;
+}
+
+/** Equations, each with all that it is equal or equivalent to. @param {Part[]} parts */
+function equationsOf(parts) {
+  /** @type {Part[][]} */
+  const equations = [];
+  for (const part of parts) {
+    if (equations.length && goesOn(part)) equations[equations.length - 1].push(part);
+    else equations.push([part]);
+  }
+  return equations;
+}
+
+/**
+ * The rows of a formula, joined as far as they fit in `room` em.
+ * @param {readonly Row[]} given @param {number} room @param {(latex: string) => {width: number}} measure @returns {Row[]}
+ */
+export function joinedRows(given, room, measure) {
+  const wide = (/** @type {string} */ latex) => measure(latex).width;
+  const parts = given.map(partOf);
+  const right = room - Math.max(...parts.map(({ left }) => wide(left)));
+  /** @type {Part[]} */
+  const rows = [];
+  /** @type {Part[]} */
+  const short = [];
+  const settle = () => rows.push(...inRows(short.splice(0), right, BETWEEN, APART, wide));
+  for (const equation of equationsOf(parts)) {
+    const own = inRows(equation, right, " ", RELATED, wide);
+    if (own.length === 1 && !equation.some(isEquivalent)) short.push(...own);
+    else {
+      settle();
+      rows.push(...own);
+    }
+  }
+  settle();
+  return rows.map(({ left, right: text, gap }) => ({ text: `${left}& ${text}`, gap }));
+}
