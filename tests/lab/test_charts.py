@@ -26,9 +26,8 @@ from deltaq.lab.peers import PEERS
 from deltaq.lab.report import Report
 from deltaq.lab.subject import subject_of
 from deltaq.narration.catalog import keys, text
-from deltaq.simulation.kernels.motion import UNSETTLED
 from deltaq.simulation.library import method_ids
-from deltaq.simulation.outcome import outcome_of
+from deltaq.simulation.outcome import NO_DIRECTION, outcome_of
 
 AXES = {
     "x": {"parameter": "omega", "from": 20.0, "to": 80.0, "count": 8},
@@ -158,7 +157,7 @@ def test_peers_are_told_apart_by_symbol() -> None:
 
 
 def test_every_way_to_end_has_its_words_and_no_word_is_left_over() -> None:
-    ends = {outcome_of(kernel, {}).status for kernel in range(UNSETTLED + 1)}
+    ends = {outcome_of(kernel, {}).status for kernel in range(NO_DIRECTION + 1)}
     seen = {"unresolved", "step_blind", "guide_jumps", "horizon_reached", "tolerance_missed", "too_slow"}
     assert set(keys("en", "labs.status")) == ends | seen
 

@@ -4,12 +4,14 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
 
+from deltaq.errors import SceneError
 from deltaq.mechanics.changes import change
 from deltaq.mechanics.document import read_scene
 from deltaq.mechanics.library import load_scene
@@ -18,6 +20,7 @@ from deltaq.mechanics.toml import read_toml
 from deltaq.mechanics.writing import write_scene
 from deltaq.simulation.driver import simulate
 from deltaq.simulation.library import get_method
+from deltaq.simulation.reference import METHODS, Reference
 from deltaq.simulation.service import problem_of, run
 from deltaq.simulation.trajectory import Trajectory
 
@@ -86,6 +89,21 @@ def test_rebounds_that_pile_up_end_in_rest() -> None:
     late = found.times > found.transitions[-1].time
     assert np.abs(found.values[late]).max() < 1e-14
     assert not found.rates[late].any()
+
+
+@pytest.mark.parametrize("restitution", [0.5, 0.8, 0.95])
+def test_rebounds_pile_up_on_a_moving_table_too(restitution: float) -> None:
+    """Where a table moves with less than g, the ball comes to lie on it, and then moves with it: z = a sin ωt."""
+    scene = change(scene_here("bouncing-ball"), parameters={"e": restitution, "omega": 8.0})
+    scene = replace(scene, coordinates=(replace(scene.coordinates[0], value=0.2),))
+    found = motion(scene, 9.0, 1e-8)
+    assert found.outcome.status == "ok"
+    assert kinds(found)[-1] == "rest"
+    late = found.times > found.transitions[-1].time
+    assert late.any()
+    assert found.values[late, 0] == pytest.approx(0.05 * np.sin(8.0 * found.times[late]), abs=1e-11)
+    rebounds = np.diff([each.time for each in found.transitions])
+    assert rebounds[-20:-1] == pytest.approx(restitution * rebounds[-21:-2], rel=0.02)
 
 
 def test_a_table_that_falls_faster_than_the_ball_lets_it_go() -> None:
@@ -219,3 +237,49 @@ def test_scenes_that_jump_balance(name: str) -> None:
     assert max(answer["error"]["estimate"]) < 1e-8
     size = np.abs(answer["energy"]["kinetic"]).max() + np.abs(answer["energy"]["potential"]).max()
     assert np.ptp(answer["energy"]["balance"]) < 1e-5 * size
+
+
+def test_the_power_of_what_sticks_is_that_of_its_reaction() -> None:
+    """A belt that carries a block along against a spring feeds k x v; where the block slips, friction takes F ẋ."""
+    answer: Any = run({"scene": write_scene(scene_here("stick-slip")), "t_end": 4, "tolerance": 1e-10})
+    x, rate, power = (
+        np.array(part) for part in (answer["coordinates"]["x"], answer["rates"]["x"], answer["energy"]["power"])
+    )
+    held = np.abs(rate - 0.3) < 1e-12
+    inside = held & np.roll(held, 1) & np.roll(held, -1)
+    assert inside.sum() > 50
+    assert power[inside] == pytest.approx(20.0 * x[inside] * 0.3, abs=1e-8)
+    sliding = G * (0.2 + 0.2 * np.exp(-np.abs(rate - 0.3) / 0.5))
+    assert power[~held] == pytest.approx((-np.sign(rate - 0.3) * sliding * rate)[~held], abs=1e-7)
+
+
+def test_a_contact_without_a_direction_is_refused() -> None:
+    """Of a string that hangs straight down and whose y is held nothing can be moved along ∂g/∂x = −2x = 0."""
+    asked = {"scene": write_scene(scene_here("catching-pendulum")), "freeze": ["y"], "t_end": 1}
+    with pytest.raises(SceneError) as caught:
+        run(asked)
+    assert [(each.code, each.pointer) for each in caught.value.problems] == [
+        ("contact-without-direction", "/scene/events/0/value")
+    ]
+
+
+def test_a_contact_that_loses_its_direction_later_ends_the_motion_with_a_reason() -> None:
+    """g = 1 − x² + h with a table h that comes up under x = 0: there ∂g/∂x = 0."""
+    event = {"name": "table", "value": "1/10 - t - x^2", "then": "bounce", "restitution": "1/2"}
+    found = motion(on_line([], [event]), 1.0)
+    assert (found.outcome.status, found.outcome.code) == ("unresolved", "contact_without_direction")
+    assert found.reached == pytest.approx(0.1, abs=1e-9)
+
+
+def test_a_reference_is_compared_at_the_same_times() -> None:
+    """Two motions of which one has an event more, whose time stands twice: samples behind it are not shifted."""
+    scene = scene_here("braked-oscillator")
+    one, other = motion(scene, 3.0, 1e-9), motion(change(scene, parameters={"mu": 0.1500001}), 3.0, 1e-9)
+    trusted = Reference(one.times, one.values, np.zeros(len(one.times)), METHODS)
+    extra = replace(
+        other,
+        times=np.insert(other.times, 10, [0.05, 0.05]),
+        values=np.insert(other.values, 10, [[0.0], [0.0]], axis=0),
+    )
+    assert trusted.errors_of(extra).max() == pytest.approx(np.max(trusted.errors_of(other)))
+    assert trusted.errors_of(extra).max() < 1e-5

@@ -127,7 +127,7 @@ def _energy(
     scale = float(np.max(np.abs(seen.kinetic) + np.abs(seen.potential), initial=0.0))
     # Second order in the error where the energy is flat, hence more digits than the error itself supports.
     doubt = np.maximum(1e-3 * errors, 1e-14) * max(scale, 1e-300)
-    watts = power(problem, trajectory.times, states)
+    watts = power(problem, trajectory.times, states, trajectory.stretches)
     energies = _together([seen.kinetic, seen.potential, watts, trajectory.work, balance], doubt)
     named = zip(("kinetic", "potential", "power", "work", "balance"), energies, strict=True)
     return {

@@ -6,7 +6,7 @@ import numpy as np
 
 from .integration import motion_of
 from .kernels.derivatives import evaluate_rhs
-from .problem import Floats, Problem
+from .problem import Floats, Problem, Stretch
 
 
 def derivatives(problem: Problem, times: Floats, states: Floats) -> Floats:
@@ -29,11 +29,21 @@ def accelerations(problem: Problem, times: Floats, states: Floats) -> Floats:
     return derivatives(problem, times, states)[:, n : 2 * n]
 
 
-def power(problem: Problem, times: Floats, states: Floats) -> Floats:
+def power(problem: Problem, times: Floats, states: Floats, stretches: tuple[Stretch, ...] = ()) -> Floats:
     """P = P₀ + p₁·q̈ of all that is not in E + V: other forces, guides and explicit time dependence, in W.
 
-    `times` has shape (states,), `states` shape (states, ≥ 2n); returns shape (states,).
+    Where a motion goes on behind events, each state counts in the mode of its stretch: what holds a sticking block is
+    no sliding friction. Of a time that stands twice, the last state belongs to the stretch that begins then. `times`
+    has shape (states,), `states` shape (states, ≥ 2n); returns shape (states,).
     """
-    if not problem.model.layout.is_powered:
-        return np.zeros(len(times))
-    return derivatives(problem, times, states)[:, -1]
+    if not stretches:
+        return derivatives(problem, times, states)[:, -1] if problem.model.layout.is_powered else np.zeros(len(times))
+    starts = np.array([each.start for each in stretches])
+    before, behind = (np.searchsorted(starts, times, side=side) - 1 for side in ("left", "right"))
+    follows = np.append(times[1:] == times[:-1], False)
+    number = np.maximum(np.where(follows, before, behind), 0)
+    found = np.zeros(len(times))
+    for k in np.unique(number):
+        here = number == k
+        found[here] = power(stretches[k].problem, times[here], states[here])
+    return found

@@ -19,7 +19,7 @@ from .estimate import Estimate
 from .event import EventOccurrence
 from .integration import Flag
 from .method import Method, Series
-from .problem import Floats, Problem
+from .problem import Floats, Problem, Stretch
 from .reactions import reactions_at
 from .refinement import BySeries, ByStep, ByTolerance, Refinement
 from .rounding import significant
@@ -141,6 +141,7 @@ def _trajectory(
         best.seen_until,
         reactions,
         transitions,
+        tuple(Stretch(each.start, each.problem) for each in best.chosen.meshes),
     )
 
 

@@ -99,7 +99,8 @@ class Step:
         row, column = np.nonzero(apart == 0.0)
         apart[row, column] = 1.0
         shares = weights / apart
-        found = (shares @ self.states) / shares.sum(axis=1, keepdims=True)
+        first = self.states[0]  # what rests stays where it is, to the last digit
+        found = first + (shares @ (self.states - first)) / shares.sum(axis=1, keepdims=True)
         found[row] = self.states[column]
         return np.asarray(found)
 
@@ -165,7 +166,8 @@ class _Look:
         if at.size:
             return np.array(self._states[at[0]])
         shares = self._weights / apart
-        return np.asarray((shares @ self._states) / shares.sum())
+        first = self._states[0]
+        return np.asarray(first + (shares @ (self._states - first)) / shares.sum())
 
     def value(self, index: int, x: float) -> float:
         self._row[: self._width] = self.state(x)[: self._width]

@@ -16,10 +16,11 @@ from .integration import Flag
 from .kernels.loop import Result
 from .kernels.motion import FINE, MANY_EVENTS, STEP_LIMIT, UNSETTLED
 from .method import Method
+from .outcome import NO_DIRECTION
 from .pieces import Pieces
 from .problem import Floats, Problem
 from .run import Mesh, Run, Steps, run
-from .transitions import ModeState, Transition, UnsettledError, begun, passed
+from .transitions import ModeState, NoDirectionError, Transition, UnsettledError, begun, passed
 
 MOST = 5000  # events in one run
 AT_ONCE = 50  # events at the same time, by rounding
@@ -75,7 +76,7 @@ def _mesh(problem: Problem, found: Run) -> Mesh:
         inside = times < event.time
         times = np.append(times[inside], event.time)
         states = np.vstack([states[inside], event.state[None, :width]])
-    return Mesh(problem, times, states, found.stride)
+    return Mesh(problem, float(found.times[0]), times, states, found.stride)
 
 
 def run_on(problem: Problem, modes: Modes, method: Method, times: Floats, cancelled: Flag, steps: Steps) -> Run:
@@ -97,6 +98,8 @@ def run_on(problem: Problem, modes: Modes, method: Method, times: Floats, cancel
             current = _next(current, event, record)
         except UnsettledError:
             return _whole(record, times, UNSETTLED, event.time, found)
+        except NoDirectionError:
+            return _whole(record, times, NO_DIRECTION, event.time, found)
         if len(record.transitions) >= MOST or record.at_once >= AT_ONCE:
             return _whole(record, times, MANY_EVENTS, event.time, found)
         if current.time >= times[-1]:

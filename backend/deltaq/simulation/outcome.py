@@ -25,6 +25,7 @@ from .kernels.motion import (
 )
 
 Number = str | int | float
+NO_DIRECTION = UNSETTLED + 1  # no kernel says so: of runs that go on behind events
 
 
 @dataclass(frozen=True)
@@ -59,6 +60,7 @@ _WORDS: Mapping[int, tuple[Status, str]] = MappingProxyType(
         LOCKED: ("singular_constraints", "singular_constraints"),
         MANY_EVENTS: ("step_limit", "many_events"),
         UNSETTLED: ("unresolved", "contacts_at_once"),
+        NO_DIRECTION: ("unresolved", "contact_without_direction"),
     }
 )
 

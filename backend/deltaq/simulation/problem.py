@@ -84,3 +84,11 @@ class Problem:
         """
         parameters = np.broadcast_to(np.array(self.parameters, dtype=np.float64), (len(times), len(self.parameters)))
         return np.hstack([states[:, : 2 * self.degrees], times[:, None], parameters])
+
+
+@dataclass(frozen=True)
+class Stretch:
+    """A part of a motion that goes on behind events: from `start` in seconds it is that of a problem, in its mode."""
+
+    start: float
+    problem: Problem

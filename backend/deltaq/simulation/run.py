@@ -41,12 +41,13 @@ class Stop:
 
 @dataclass(frozen=True)
 class Mesh:
-    """The mesh of a stretch between events, as that of a run, and its problem in its mode.
+    """The mesh of a stretch between events, as that of a run, its problem in its mode, and its `start` in seconds.
 
     `mesh_times` has shape (mesh,), `mesh_states` shape (mesh, 2n).
     """
 
     problem: Problem
+    start: float
     mesh_times: Floats
     mesh_states: Floats
     stride: int

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import replace
 from time import perf_counter
+from typing import NoReturn
 
 import numpy as np
 
@@ -29,7 +30,7 @@ from .problem import Floats, Problem, Released
 from .request import Request, read_request
 from .rounding import short
 from .trajectory import Trajectory
-from .transitions import TOUCHING
+from .transitions import TOUCHING, NoDirectionError, UnsettledError, begun
 
 ANGLES = frozenset({"rad", "1", "°", "deg"})
 LARGEST = float(np.finfo(np.float64).max) / 16  # of a number in an answer: differences of energies are numbers, too
@@ -66,7 +67,7 @@ def _simulated(request: Request, choice: Choice, problem: Problem, compile_time:
     )
     states = np.hstack([trajectory.values, trajectory.rates])
     seen = problem.model.observe(problem.inputs(trajectory.times, states))
-    watts = power(problem, trajectory.times, states)
+    watts = power(problem, trajectory.times, states, trajectory.stretches)
     return answer(request, choice, problem, *_finite(trajectory, seen, watts), compile_time)
 
 
@@ -87,6 +88,26 @@ def require_no_event(scene: Scene, problem: Problem) -> None:
     ]
     if problems:
         raise errors.SceneError(*problems)
+    _require_beginning(scene, problem)
+
+
+def _require_beginning(scene: Scene, problem: Problem) -> None:
+    """Raises SceneError where contacts that touch at the start do not say how the motion begins."""
+    modes = modes_of(scene)
+    if modes is None or not modes.contacts:
+        return
+    try:
+        begun(replace(problem, model=modes.model), modes)
+    except NoDirectionError as found:
+        _refuse_contact(scene, "contact-without-direction", modes.contacts[found.contact])
+    except UnsettledError:
+        _refuse_contact(scene, "contacts-at-start", modes.contacts[0])
+
+
+def _refuse_contact(scene: Scene, code: str, index: int) -> NoReturn:
+    event = scene.events[index]
+    told = {"name": event.name, "value": event.value.text[:80]}
+    raise errors.SceneError(errors.Problem(code, f"/events/{index}/value", parameters=told))
 
 
 def _at_start(event: Event, value: float) -> dict[str, str | int | float]:

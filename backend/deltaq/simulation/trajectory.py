@@ -10,7 +10,7 @@ from .constraints import Reactions
 from .estimate import Estimate
 from .event import EventOccurrence
 from .outcome import Outcome
-from .problem import Floats
+from .problem import Floats, Stretch
 from .transitions import Transition
 
 MOST_TOLD = 1000  # events behind which a motion went on
@@ -37,8 +37,9 @@ class Trajectory:
     `estimate` is None if it was not asked for; `reached` is the time at which the runs ended. `conditioning` is the
     smallest pivot of the mass matrix met, relative to the diagonal entry it is left of. Where an event ended the
     motion, its time is the last sample; `transitions` are events behind which it went on, and their times are samples
-    twice, before and behind them. Behind `seen_until` steps were too long to see what the forces do. `reactions` are
-    those of the constraints at the samples, where there are any.
+    twice, before and behind them; `stretches` are the parts between events, each in its mode. Behind `seen_until` steps
+    were too long to see what the forces do. `reactions` are those of the constraints at the samples, where there are
+    any.
     """
 
     method: str
@@ -56,6 +57,7 @@ class Trajectory:
     seen_until: float = np.inf
     reactions: Reactions | None = None
     transitions: tuple[Transition, ...] = ()
+    stretches: tuple[Stretch, ...] = ()
 
     @property
     def trusted_until(self) -> float:

@@ -8,6 +8,7 @@ Source: Pfeiffer, Glocker, Multibody Dynamics with Unilateral Contacts, ch. 4–
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, replace
 from functools import cached_property
 
@@ -18,7 +19,8 @@ from .problem import Floats, Problem
 
 TOUCHING = 1e-11  # a gap, relative to the coordinates
 STILL = 1e-12  # a rate, relative to the largest
-HEIGHT = 1e-15  # of a rebound, relative to the coordinates, from which on it counts as rest
+HEIGHT = 1e-15  # by which rounding lifts a rebound, relative to the coordinates
+LATE = 1e-6  # s; so much behind the zero of a gap its event is found at most
 ROUNDING = 1e-15
 HARDLY = 1e-13  # of a rate of slipping
 SLACK = 1e-12  # relative, of a friction that holds
@@ -145,6 +147,14 @@ class UnsettledError(Exception):
     """Contacts at once whose impacts one after the other do not end."""
 
 
+class NoDirectionError(Exception):
+    """A contact whose gap changes with no coordinate where it is closed: no impulse along ∂g/∂q can part it."""
+
+    def __init__(self, contact: int) -> None:
+        super().__init__(contact)
+        self.contact = contact
+
+
 def begun(problem: Problem, modes: Modes) -> ModeState:
     """The initial state in its mode."""
     n = problem.degrees
@@ -175,7 +185,7 @@ def passed(current: ModeState, watched: int) -> tuple[ModeState, str, str]:
             return found, modes.frictions[k], "slip"
         facts = current.facts
         sign, rate = mode.slips[k], float(facts.a[k] @ current.accelerations + facts.bias[k])
-        stopped = _at_zero(current, sign * float(facts.w[k]), sign * rate)
+        stopped = _at_zero(current, sign * float(facts.w[k]), sign * rate, 0.0)
         stopped = stopped.pushed(k, -float(stopped.facts.w[k]))
         found = _resolved(stopped, frozenset(), None)
         return found, modes.frictions[k], "stick" if found.mode.flags[k] else "turn"
@@ -183,17 +193,30 @@ def passed(current: ModeState, watched: int) -> tuple[ModeState, str, str]:
     name = modes.scene.events[modes.contacts[j]].name
     if mode.flags[frictions + j]:
         return _resolved(current, frozenset(), frictions + j), name, "release"
-    closed = _at_zero(current, float(current.facts.gaps[j]), float(current.facts.w[frictions + j]))
+    closed = _closed(current, j)
     found = _resolved(_after_impacts(closed, j), frozenset({j}), None)
     return found, name, "rest" if found.mode.flags[frictions + j] else "impact"
 
 
-def _at_zero(current: ModeState, value: float, rate: float) -> ModeState:
-    """The state when the value that fell was zero, without the offset that it was watched with."""
-    late = value / rate if rate < 0.0 else 0.0
-    if not 0.0 < late < 1e-9:
+def _closed(current: ModeState, contact: int) -> ModeState:
+    """The state when a gap was zero; `current` is that when it was less by its offset."""
+    facts, row = current.facts, len(current.modes.frictions) + contact
+    bend = float(facts.a[row] @ current.accelerations + facts.bias[row])
+    return _at_zero(current, float(facts.gaps[contact]), float(facts.w[row]), bend)
+
+
+def _at_zero(current: ModeState, value: float, rate: float, bend: float) -> ModeState:
+    """The state when a value that fell, with its first two time derivatives, was zero.
+
+    What is left of its fall, v(t − s) = v − v̇ s + v̈ s²/2 = 0, is not fallen once more with each rebound: that would
+    feed small ones for ever.
+    """
+    square = rate**2 - 2.0 * bend * value
+    late = 2.0 * value / (rate - math.sqrt(square)) if rate < 0.0 and square >= 0.0 else 0.0
+    if not 0.0 < late < LATE:
         return current
-    q, v = current.q - late * current.v, current.v - late * current.accelerations
+    rates = current.accelerations
+    q, v = current.q - late * (current.v - 0.5 * late * rates), current.v - late * rates
     return replace(current, time=current.time - late, q=q, v=v)
 
 
@@ -203,6 +226,8 @@ def _after_impacts(current: ModeState, first: int) -> ModeState:
     free = current.with_flags((0.0,) * current.modes.rows)
     resting = {j for j in range(len(current.modes.contacts)) if current.mode.flags[frictions + j]}
     touching = {first} | resting | {j for j, gap in enumerate(free.facts.gaps) if gap <= TOUCHING * _size(free.q)}
+    for j in touching:
+        _require_direction(free, j)
     for _ in range(MOST_IMPACTS):
         rates = {j: float(free.facts.w[frictions + j]) for j in touching}
         j = min(rates, key=lambda each: rates[each])
@@ -213,12 +238,20 @@ def _after_impacts(current: ModeState, first: int) -> ModeState:
     raise UnsettledError
 
 
+def _require_direction(current: ModeState, contact: int) -> None:
+    """Raises NoDirectionError for a contact without a gradient."""
+    row = current.facts.a[len(current.modes.frictions) + contact]
+    if not float(row @ np.linalg.solve(current.mass, row)) > 0.0:
+        raise NoDirectionError(contact)
+
+
 def _rests(current: ModeState, row: int, contact: int) -> bool:
-    """Whether the rebound would be lower than can be told from rest."""
+    """Whether the rebound would be lower than can be told from rest: it loses 1 − e² of what rounding lifts it by."""
     facts = current.facts
-    rebound = float(facts.restitutions[contact] * facts.w[row])
+    e = float(facts.restitutions[contact])
+    rebound = e * float(facts.w[row])
     pull = -float(facts.a[row] @ current.accelerations + facts.bias[row])
-    return pull > 0.0 and rebound**2 <= 2.0 * pull * HEIGHT * _size(current.q)
+    return pull > 0.0 and rebound**2 * (1.0 - e**2) <= 2.0 * pull * HEIGHT * _size(current.q)
 
 
 def _resolved(current: ModeState, closed: frozenset[int], released: int | None) -> ModeState:
