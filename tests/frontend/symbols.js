@@ -2,6 +2,7 @@
 
 import { figureOf, withDrawing } from "../../frontend/model/drawing/figure.js";
 import { stageOf } from "../../frontend/model/drawing/stage.js";
+import { areOfFormulas } from "../../frontend/model/prose.js";
 import { markerOf, withSymbols } from "../../frontend/model/symbols.js";
 import { endOf, snapshotAt } from "../../frontend/model/trajectory.js";
 
@@ -39,6 +40,9 @@ function symbolsOf(latex) {
   return found;
 }
 
+/** Classes in formulas that the page does not take from the server: LaTeX with them is shown as an error. */
+const refusedIn = (latex) => [...latex.matchAll(/\\htmlClass\{([^}]*)\}/g)].map(([, classes]) => classes).filter((classes) => !areOfFormulas(classes));
+
 /** What names the thing that a letter stands for; the term about it names where the term comes from. */
 const OWN = /^(?:[pq]-\d+|vector-[rv]|of-.+)$/;
 /** Symbols of the whole system name what belongs to them. */
@@ -47,7 +51,7 @@ const QUANTITY = /^(?:body|load)-/;
 
 /**
  * Symbols in the formulas of all steps that have a mark in the drawing, and those that have none: each once for a step.
- * @returns {{marked: [string, string][], bare: [string, string][]}} step and symbol
+ * @returns {{marked: [string, string][], bare: [string, string][], refused: string[]}} step and symbol; refused: classes
  */
 export function coverage(scene, trajectory, { chapters, result }) {
   const mark = markerOf(scene, result);
@@ -61,5 +65,7 @@ export function coverage(scene, trajectory, { chapters, result }) {
       found[is ? "marked" : "bare"].add(`${step.id}\t${letter}${own.length ? ` ${own.at(-1)}` : ""}`);
     }
   const pairs = (symbols) => [...symbols].map((one) => one.split("\t"));
-  return { marked: pairs(found.marked), bare: pairs(found.bare) };
+  const all = (step) => [step, ...(step.substeps ?? []).flatMap(all)];
+  const shown = chapters.flatMap(({ steps }) => steps.flatMap((step) => all(withSymbols(step, mark))));
+  return { marked: pairs(found.marked), bare: pairs(found.bare), refused: [...new Set(shown.flatMap(({ marked }) => refusedIn(marked ?? "")))] };
 }

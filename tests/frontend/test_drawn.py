@@ -72,6 +72,7 @@ def test_curves_portraits_paths_and_handout(drawing: Drawing, scene: str) -> Non
     for letters in found["letters"].values():
         assert letters["covers"] == {}
         assert letters["hidden"] <= LEFT_OUT * letters["shown"], letters["without"]
+    assert found["symbols"]["refused"] == []
     marked, bare = found["symbols"]["marked"], found["symbols"]["bare"]
     assert len(marked) >= MARKED * len(marked + bare), bare
 
