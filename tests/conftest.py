@@ -98,7 +98,8 @@ def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item
     """Cases and files in the order of `tests/order.py`; those that need the kernels wait for them."""
     if not config.getoption("--every-case") and (left := left_out(items)):
         config.hook.pytest_deselected(items=left)
-        items[:] = [item for item in items if item not in set(left)]
+        omitted = set(left)
+        items[:] = [item for item in items if item not in omitted]
     of = {item: item.nodeid.partition("::")[0] for item in items}
     place = {file: index for index, file in enumerate(in_order(set(of.values()), durations()))}
     items.sort(key=lambda item: place[of[item]])

@@ -39,16 +39,23 @@ def examples(kind: type[Request]) -> list[dict[str, Any]]:
     return (kind.model_config.get("json_schema_extra") or {}).get("examples", [])  # type: ignore[union-attr,return-value]
 
 
-def bounds(kind: type[Request]) -> Iterator[tuple[str, str, float, dict[str, Any]]]:
+Bound = tuple[str, str, float, dict[str, Any]]
+
+
+def bounds(kind: type[Request]) -> Iterator[Bound]:
     """Each bound of each number of a request: field, keyword of JSON Schema, bound, and the schema that has it."""
     for name, field in kind.model_json_schema()["properties"].items():
         for schema in (field, *field.get("anyOf", ())):
             yield from ((name, side, schema[side], schema) for side in SIDES if side in schema)
 
 
-CASES = [
-    pytest.param(kind, *case, id=f"{kind.__name__} {case[0]} {case[1]}") for kind in requests() for case in bounds(kind)
-]
+@pytest.fixture
+def bounded(kind: type[Request]) -> list[Bound]:
+    """The bounds of a request, made when a test runs: whoever only collects the tests makes no schemas."""
+    return list(bounds(kind))
+
+
+EACH = pytest.mark.parametrize("kind", list(requests()), ids=lambda kind: kind.__name__)
 
 
 def beyond(side: str, bound: float, schema: dict[str, Any]) -> float:
@@ -67,21 +74,26 @@ def told(kind: type[Request], document: dict[str, Any]) -> tuple[Problem, Proble
     return tuple(found)  # type: ignore[return-value]
 
 
-@pytest.mark.parametrize(("kind", "field", "side", "bound", "schema"), CASES)
+@EACH
 def test_a_number_out_of_bounds_is_told_with_both_of_them_or_with_the_one_that_was_passed(
-    kind: type[Request], field: str, side: str, bound: float, schema: dict[str, Any]
+    kind: type[Request], bounded: list[Bound]
 ) -> None:
-    short, code, _ = SIDES[side]
-    value = beyond(side, bound, schema)
-    own, called = told(kind, examples(kind)[0] | {field: value})
-    assert (own.code, own.pointer) == ("request-outside", f"/{field}")
-    assert float(own.parameters["value"]) == value
-    limits = {own.parameters["min"], own.parameters["max"]}
-    assert limits >= {schema[one] for one in SIDES if one in schema}
-    assert own.parameters["min"] < own.parameters["max"]
-    assert (called.code, called.pointer, called.parameters[short]) == (code, f"/{field}", bound)
-    for problem in (own, called):
-        assert all("{" not in message(language, problem) for language in LANGUAGES)
+    for field, side, bound, schema in bounded:
+        short, code, _ = SIDES[side]
+        value = beyond(side, bound, schema)
+        own, called = told(kind, examples(kind)[0] | {field: value})
+        assert (own.code, own.pointer) == ("request-outside", f"/{field}")
+        assert float(own.parameters["value"]) == value
+        limits = {own.parameters["min"], own.parameters["max"]}
+        assert limits >= {schema[one] for one in SIDES if one in schema}
+        assert own.parameters["min"] < own.parameters["max"]
+        assert (called.code, called.pointer, called.parameters[short]) == (code, f"/{field}", bound)
+        for problem in (own, called):
+            assert all("{" not in message(language, problem) for language in LANGUAGES)
+
+
+def test_there_are_bounds_to_be_held() -> None:
+    assert sum(len(list(bounds(kind))) for kind in requests()) > 40
 
 
 AXIS = {"parameter": "omega", "from": 1.0, "to": 2.0}
@@ -115,15 +127,14 @@ def test_what_is_wrong_further_inside(kind: type[Request], fields: dict[str, Any
     assert own == problem
 
 
-@pytest.mark.parametrize(("kind", "field", "side", "bound", "schema"), CASES)
-def test_a_closed_bound_itself_may_be_asked_for(
-    kind: type[Request], field: str, side: str, bound: float, schema: dict[str, Any]
-) -> None:
-    if side in ("minimum", "maximum"):
-        assert getattr(read(kind, examples(kind)[0] | {"tolerance": None} | {field: bound}), field) == bound
+@EACH
+def test_a_closed_bound_itself_may_be_asked_for(kind: type[Request], bounded: list[Bound]) -> None:
+    for field, side, bound, _ in bounded:
+        if side in ("minimum", "maximum"):
+            assert getattr(read(kind, examples(kind)[0] | {"tolerance": None} | {field: bound}), field) == bound
 
 
-@pytest.mark.parametrize("kind", list(requests()), ids=lambda kind: kind.__name__)
+@EACH
 def test_every_example_is_a_request_and_a_field_that_is_null_was_not_given(kind: type[Request]) -> None:
     for document in examples(kind):
         empty = dict.fromkeys(kind.model_fields.keys() - document.keys())
