@@ -5531,9 +5531,9 @@ export interface components {
             position: string[];
             /**
              * Inertia
-             * @description of a rigid body: about its centre of mass, or its principal moments
+             * @description of a rigid body about its centre of mass: in space principal moments, or the rows of a tensor
              */
-            inertia?: string | string[] | null;
+            inertia?: string | string[] | string[][] | null;
             /**
              * Angle
              * @description of a rigid body in the plane
@@ -5542,7 +5542,7 @@ export interface components {
             angle?: string | null;
             /**
              * Angular Velocity
-             * @description of a rigid body in space, in its principal axes
+             * @description of a rigid body in space, along the axes of its inertia
              */
             angular_velocity?: string[] | null;
             /**
@@ -5968,7 +5968,7 @@ export interface components {
              * Force
              * @description components of a force, or friction while it slips
              */
-            force?: string | string[] | null;
+            force?: string[] | string | null;
             /**
              * Coordinate
              * @description that friction acts on

@@ -97,8 +97,12 @@ class Peer:
         match part:
             case Translation(mass=mass, position=position):
                 return self.read(mass) * self._square(position) / 2
-            case Rotation(inertia=inertia, angular_velocity=omega):
-                return sum(self.read(j) * self.read(w) ** 2 / 2 for j, w in zip(inertia, omega, strict=True))
+            case Rotation(entries=entries, angular_velocity=nodes):
+                omega = self.vector(nodes)
+                tensor = sp.zeros(len(omega), len(omega))
+                for k, l, entry in entries:
+                    tensor[k, l] = tensor[l, k] = self.read(entry)
+                return (omega.T * tensor * omega)[0] / 2
             case Distribution(density=density, position=position, material=material):
                 return self.integrate(self.read(density) * self._square(position) / 2, material)
 

@@ -2,7 +2,7 @@ import { strict as assert } from "node:assert";
 import { test } from "node:test";
 import { added, inDimension, numberOf, ofKind, removed, renamed, shifted, written } from "../../frontend/model/editor/changes.js";
 import { marked, placed } from "../../frontend/model/editor/problems.js";
-import { fieldsOf, isList, SECTIONS, shownFields } from "../../frontend/model/editor/schema.js";
+import { fieldsOf, isList, isTensor, otherInertia, SECTIONS, shownFields } from "../../frontend/model/editor/schema.js";
 import { EMPTY, rowFor } from "../../frontend/model/editor/templates.js";
 import { tomlOf } from "../../frontend/model/editor/toml.js";
 import { completed, documentIn, fragmentOf, keepDraft, readDraft } from "../../frontend/model/own.js";
@@ -180,4 +180,24 @@ test("a distance that changes is no rod; a spring is drawn where a load says so"
   const stretched = { ...trajectory, positions: { ...trajectory.positions, bob: trajectory.t.map((t) => [0, 1 + t]) } };
   const sprung = /** @type {any} */ ({ ...scene, drawing: null, loads: [{ kind: "spring", name: "c", from: "pivot", to: "bob" }] });
   assert.deepEqual(sketchOf(sprung, stretched).map(({ kind }) => kind), ["ground", "trail", "spring", "bob"]);
+});
+
+test("moments of inertia become the rows of a tensor and back, and all of their fields are shown", () => {
+  const moments = ["A", "B", "C"];
+  const rows = otherInertia(moments);
+  assert.deepEqual(rows, [
+    ["A", "0", "0"],
+    ["0", "B", "0"],
+    ["0", "0", "C"],
+  ]);
+  assert.deepEqual([isTensor(moments), isTensor(rows)], [false, true]);
+  assert.deepEqual(otherInertia(rows), moments);
+  const shown = (/** @type {unknown} */ inertia) => {
+    const body = { name: "top", kind: "rigid", mass: "m", position: ["0", "0", "0"], inertia };
+    const fields = shownFields(/** @type {any} */ ({ ...EMPTY, dimension: 3, bodies: [body] }));
+    return fields.filter(({ pointer }) => pointer.startsWith("/bodies/0/inertia")).map(({ pointer, value }) => [pointer.slice(18), value]);
+  };
+  assert.deepEqual(shown(moments), [["0", "A"], ["1", "B"], ["2", "C"]]);
+  assert.deepEqual(shown(rows).length, 9);
+  assert.deepEqual(shown(rows)[4], ["1/1", "B"]);
 });

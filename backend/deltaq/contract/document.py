@@ -25,6 +25,9 @@ class Part(BaseModel):
 Text = Annotated[str | dict[str, str], Field(description="a text, or one by language", examples=[{"en": "Pendulum"}])]
 Expression = Annotated[str, Field(description="an expression in the names of the scene", examples=["l*sin(phi)"])]
 Vector = Annotated[list[Expression], Field(description="components", examples=[["l*sin(phi)", "l*cos(phi)"]])]
+Tensor = Annotated[
+    list[Vector], Field(description="rows", examples=[[["A", "-D", "0"], ["-D", "B", "0"], ["0", "0", "C"]]])
+]
 Size = Annotated[float | str | None, Field(description="in metres, or a parameter by its name")]
 
 
@@ -74,11 +77,12 @@ class SceneBody(Part):
     kind: Literal["particle", "rigid", "continuum"] = Field(description="of body")
     mass: Expression | None = Field(None, description="of a particle or rigid body", examples=["m"])
     position: Vector = Field(description="of the particle, of the centre of mass, or by the material coordinates")
-    inertia: Expression | Vector | None = Field(
-        None, description="of a rigid body: about its centre of mass, or its principal moments"
+    inertia: Expression | Vector | Tensor | None = Field(
+        None,
+        description="of a rigid body about its centre of mass: in space principal moments, or the rows of a tensor",
     )
     angle: Expression | None = Field(None, description="of a rigid body in the plane", examples=["phi"])
-    angular_velocity: Vector | None = Field(None, description="of a rigid body in space, in its principal axes")
+    angular_velocity: Vector | None = Field(None, description="of a rigid body in space, along the axes of its inertia")
     material: list[MaterialCoordinate] | None = Field(None, description="of a continuum")
     density: Expression | None = Field(None, description="of a continuum, by unit of the material coordinates")
 

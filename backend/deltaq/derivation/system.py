@@ -66,9 +66,10 @@ class System(Reactions):
         match part:
             case Translation():
                 return self.mass(body) * square / 2
-            case Rotation(inertia=inertia):
-                squares = (omega**2 for omega in self.angular_velocity(part))
-                return sp.Add(*(self.expression(j) * w / 2 for j, w in zip(inertia, squares, strict=True)))
+            case Rotation(entries=entries):
+                omega = self.angular_velocity(part)
+                products = (self.expression(j) * omega[k] * omega[l] / (1 + (k == l)) for k, l, j in entries)
+                return sp.Add(*products)
             case Distribution(density=density, material=material):
                 return self.integrated(self.expression(density) * square.expand() / 2, material, part.body)
 

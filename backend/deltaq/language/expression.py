@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 
 from .tree import (
@@ -56,3 +57,11 @@ class Expression:
     def has_derivatives(self) -> bool:
         """Whether derivatives are still to be taken, other than rates of coordinates."""
         return any(isinstance(n, (TimeDerivative, PartialDerivative)) for n in walk(self.tree))
+
+
+def expressions_in(given: object) -> Iterator[Expression]:
+    """The expressions of what is stated of a body or load: one, a vector, a tensor by rows, or none."""
+    if isinstance(given, Expression):
+        yield given
+    elif isinstance(given, tuple):
+        yield from (expression for part in given for expression in expressions_in(part))

@@ -12,12 +12,12 @@ import random
 from collections.abc import Iterator
 
 from ..errors import Problem
-from ..language.expression import Expression
+from ..language.expression import Expression, expressions_in
 from ..language.floats import evaluate
 from ..language.tree import Node
 from .bodies import Body
 from .kinetics import Distribution, Rotation, Translation
-from .mass import Matrix, Point, motions_matrix, nodes
+from .mass import Matrix, Point, motions_matrix, nodes, squares
 from .material import Material
 from .scene import Scene
 
@@ -51,8 +51,7 @@ def _varying(scene: Scene) -> Iterator[Problem]:
 def _of_mass(body: Body) -> Iterator[tuple[str, Expression]]:
     """What says how much mass there is and where it ends."""
     for key in ("mass", "inertia", "density"):
-        quantity = getattr(body, key, ())
-        yield from ((f"/{key}", part) for part in (quantity if isinstance(quantity, tuple) else (quantity,)))
+        yield from ((f"/{key}", part) for part in expressions_in(getattr(body, key, ())))
     for number, material in enumerate(body.material):
         yield f"/material/{number}/from", material.lower
         yield f"/material/{number}/to", material.upper
@@ -63,11 +62,19 @@ def _light(index: int, body: Body, values: Point) -> Iterator[Problem]:
         match part:
             case Translation(mass=mass):
                 yield from _not_positive("mass", index, body, evaluate(mass, values))
-            case Rotation(inertia=inertia):
-                least = min(evaluate(moment, values) for moment in inertia)
-                yield from _not_positive("inertia", index, body, least) if least < 0 else ()
+            case Rotation():
+                yield from _light_turning(index, body, part, values)
             case Distribution(density=density, material=material):
                 yield from _light_continuum(index, body, density, material, values)
+
+
+def _light_turning(index: int, body: Body, part: Rotation, values: Point) -> Iterator[Problem]:
+    """1/2 Σ Jₖₗ ωₖ ωₗ is negative for no ω: no moment is, and no pivot of Gaussian elimination."""
+    least = min(evaluate(moment, values) for moment in part.inertia)
+    if least < 0:
+        yield from _not_positive("inertia", index, body, least)
+    elif squares(part, values) is None:
+        yield Problem("inertia-indefinite", f"/bodies/{index}/inertia", parameters={"name": body.name})
 
 
 def _light_continuum(

@@ -15,6 +15,7 @@ from .material import Material
 from .scene import Scene
 
 STEP = 1e-5
+NOTHING = 1e-12  # of the largest entry of a tensor: what elimination leaves of nothing
 GAUSS = ((0.5 - math.sqrt(0.15), 5 / 18), (0.5, 8 / 18), (0.5 + math.sqrt(0.15), 5 / 18))  # on the unit interval
 
 Matrix = list[list[float]]
@@ -59,12 +60,42 @@ def _shares(part: Kinetics, scene: Scene, point: Point) -> Iterator[Share]:
     match part:
         case Translation(mass=mass, position=position):
             yield evaluate(mass, _guided(scene, point)), _tangents(position, scene, point)
-        case Rotation(inertia=inertia, angular_velocity=angular_velocity):
-            for moment, omega in zip(inertia, angular_velocity, strict=True):
-                yield evaluate(moment, _guided(scene, point)), _turning(omega, scene, point)
+        case Rotation(angular_velocity=angular_velocity):
+            turning = [_turning(omega, scene, point) for omega in angular_velocity]
+            for moment, weights in squares(part, _guided(scene, point)) or ():
+                yield moment, [[_weighted(weights, rates)] for rates in zip(*turning, strict=True)]
         case Distribution(density=density, position=position, material=material):
             for weight, inside in nodes(material, point):
                 yield weight * evaluate(density, _guided(scene, inside)), _tangents(position, scene, inside)
+
+
+def squares(part: Rotation, values: Point) -> list[tuple[float, list[float]]] | None:
+    """Σ Jₖₗ ωₖ ωₗ as Σ d (w·ω)², each d ≥ 0 with its w: J = L D Lᵀ; None where some ω makes it negative.
+
+    Source: Golub, Van Loan, Matrix Computations, 4th ed., §4.2.8 (semidefinite systems).
+    """
+    size = len(part.inertia)
+    left = [[0.0] * size for _ in range(size)]
+    for k, l, entry in part.entries:
+        left[k][l] = left[l][k] = evaluate(entry, values)
+    floor = NOTHING * max(map(abs, (entry for row in left for entry in row)), default=0.0)
+    found = []
+    for k in range(size):
+        pivot, column = left[k][k], [row[k] for row in left]
+        if pivot <= floor:
+            if pivot < -floor or max(map(abs, column)) > floor:
+                return None
+            continue
+        weights = [entry / pivot for entry in column]
+        found.append((pivot, weights))
+        for i in range(size):
+            for j in range(size):
+                left[i][j] -= pivot * weights[i] * weights[j]
+    return found
+
+
+def _weighted(weights: list[float], rates: tuple[list[float], ...]) -> float:
+    return sum(weight * rate for weight, (rate,) in zip(weights, rates, strict=True))
 
 
 def _tangents(position: tuple[Node, ...], scene: Scene, point: Point) -> list[list[float]]:

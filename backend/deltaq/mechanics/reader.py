@@ -155,10 +155,25 @@ class Reader:
         """As many expressions as the scene has dimensions; another number is a problem."""
         texts = self.strings(key)
         dimension = self.named.dimension
-        if key in self.table and len(texts) != dimension:
+        if isinstance(self.table.get(key), list | tuple) and len(texts) != dimension:
             self.complain("wrong-dimension", key, expected=dimension, found=len(texts))
         parsed = tuple(self.parsed(text, f"{key}/{i}") for i, text in enumerate(texts[:dimension]))
         return parsed + (NOTHING,) * (dimension - len(parsed))
+
+    def vector_or_tensor(self, key: str) -> tuple[Expression, ...] | tuple[tuple[Expression, ...], ...]:
+        """A vector, or the rows of a square matrix; a vector of nothing where a row cannot be read."""
+        rows = self.table.get(key)
+        if not isinstance(rows, list | tuple) or not any(isinstance(row, list | tuple) for row in rows):
+            return self.vector(key)
+        self.used.add(key)
+        dimension = self.named.dimension
+        if len(rows) != dimension:
+            self.complain("wrong-dimension", key, expected=dimension, found=len(rows))
+            return (NOTHING,) * dimension
+        row = Reader({str(i): row for i, row in enumerate(rows)}, f"{self.pointer}/{key}", self.problems, self.context)
+        known = len(self.problems)
+        read = tuple(row.vector(str(i)) for i in range(dimension))
+        return read if len(self.problems) == known else (NOTHING,) * dimension
 
     def position(self, key: str) -> tuple[Expression, ...]:
         """A position field r(q, t)."""

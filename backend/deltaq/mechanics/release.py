@@ -11,7 +11,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass, replace
 
 from ..errors import Problem, UnknownNameError
-from ..language.expression import Expression
+from ..language.expression import Expression, expressions_in
 from ..vocabulary import HoldKind
 from .coordinate import Coordinate
 from .loads.spring import Spring
@@ -82,8 +82,7 @@ def _properties(scene: Scene) -> Iterator[Expression]:
     """What bodies and springs are made of, how bodies turn, and what guides prescribe."""
     for body in scene.bodies:
         for key in ("mass", "inertia", "density", "angle", "angular_velocity"):
-            stated = getattr(body, key, None) or ()
-            yield from stated if isinstance(stated, tuple) else (stated,)
+            yield from expressions_in(getattr(body, key, ()))
         for material in body.material:
             yield from (material.lower, material.upper)
     for load in scene.loads:

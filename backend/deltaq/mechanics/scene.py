@@ -10,7 +10,7 @@ from functools import cached_property
 from types import MappingProxyType
 
 from ..errors import Problem, escaped
-from ..language.expression import Expression
+from ..language.expression import Expression, expressions_in
 from ..language.floats import evaluate
 from ..language.names import Names, Symbol, is_reserved
 from .bodies import Body
@@ -226,8 +226,7 @@ def names_of(
 def _texts(thing: Body | Load | Guide | Constraint) -> Iterator[str]:
     """What is stated of a body, load, guide or constraint, as written."""
     for stated in vars(thing).values():
-        parts = stated if isinstance(stated, tuple) else (stated,)
-        yield from (part.text for part in parts if isinstance(part, Expression))
+        yield from (part.text for part in expressions_in(stated))
 
 
 def _listed(names: frozenset[str]) -> str:

@@ -82,6 +82,8 @@ def _parts(place: str, part: object, dimension: Dimension | None) -> Iterator[Fi
     match part:
         case Expression():
             yield Field(place, part, dimension)
+        case tuple(row):
+            yield from (each for i, entry in enumerate(row) for each in _parts(f"{place}/{i}", entry, dimension))
         case Material(lower=lower, upper=upper):
             yield Field(f"{place}/from", lower, None)
             yield Field(f"{place}/to", upper, None)

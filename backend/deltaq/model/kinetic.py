@@ -42,10 +42,10 @@ def _of_translation(kinetics: Translation, symbols: Symbols) -> Expr:
 
 @kinetic_energy.register
 def _of_rotation(kinetics: Rotation, symbols: Symbols) -> Expr:
-    """E = 1/2 Σ Jₖ ωₖ²"""
-    moments = components(kinetics.inertia, symbols)
-    spins = (_homogeneous(spin, symbols) for spin in components(kinetics.angular_velocity, symbols))
-    return sum((moment * spin**2 for moment, spin in zip(moments, spins, strict=True)), ZERO) / 2
+    """E = 1/2 Σ Jₖₗ ωₖ ωₗ"""
+    spins = [_homogeneous(spin, symbols) for spin in components(kinetics.angular_velocity, symbols)]
+    products = (to_symengine(j, symbols) * spins[k] * spins[l] / (1 + (k == l)) for k, l, j in kinetics.entries)
+    return sum(products, ZERO)
 
 
 @kinetic_energy.register

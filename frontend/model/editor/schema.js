@@ -3,8 +3,9 @@
 import { tableOf } from "../own.js";
 
 /** @typedef {import("../own.js").SceneDocument} SceneDocument */
-/** @typedef {"text" | "number" | "flag" | "expression" | "vector" | "place" | "coordinate" | "material"} FieldType */
+/** @typedef {"text" | "number" | "flag" | "expression" | "vector" | "tensor" | "place" | "coordinate" | "material"} FieldType */
 /** @typedef {{key: string, type: FieldType, optional?: boolean}} Field */
+/** What a field of the form shows, and where it stands. @typedef {{pointer: string, value: unknown, type: FieldType, material: string[]}} Part */
 /** @typedef {{key: string, kinds?: Record<string, Field[]>, fields: Field[]}} Section */
 
 /** @param {string} key @param {FieldType} type @returns {Field} */
@@ -69,11 +70,11 @@ export const SECTIONS = [
   },
 ];
 
-/** In space a rigid body has three principal moments, and an angular velocity in place of an angle. */
+/** In space a rigid body has three principal moments or a tensor, and an angular velocity in place of an angle. */
 const RIGID_IN_SPACE = [
   field("mass", "expression"),
   POSITION,
-  field("inertia", "vector"),
+  field("inertia", "tensor"),
   field("angular_velocity", "vector"),
 ];
 
@@ -85,7 +86,7 @@ export function fieldsOf(section, row, dimension) {
 }
 
 /** Whether a field holds several values. @param {Field} field */
-export const isList = ({ type }) => type === "vector" || type === "material";
+export const isList = ({ type }) => ["vector", "tensor", "material"].includes(type);
 
 /** What an empty field of numbers means. @type {Record<string, Record<string, string>>} */
 const STANDARD = { coordinates: { value: "0", rate: "0" }, parameters: { value: "1" } };
@@ -112,10 +113,25 @@ export const dimensionOf = (given) => (given.dimension === 3 ? 3 : 2);
 export const componentsOf = (vector, dimension) =>
   Array.from({ length: Math.max(dimension, rowsOf(vector).length) }, (_, i) => i);
 
+/** Whether the moments of inertia are given as the rows of a tensor. @param {unknown} inertia */
+export const isTensor = (inertia) => rowsOf(inertia).some(Array.isArray);
+
+/**
+ * The same inertia in the other form: the rows of a tensor for principal moments, and the diagonal for a tensor.
+ * @param {unknown} inertia
+ */
+export function otherInertia(inertia) {
+  const axes = [0, 1, 2];
+  const moments = axes.map((k) =>
+    String((isTensor(inertia) ? rowsOf(rowsOf(inertia)[k])[k] : rowsOf(inertia)[k]) ?? "0"),
+  );
+  return isTensor(inertia) ? moments : axes.map((k) => axes.map((l) => (k === l ? moments[k] : "0")));
+}
+
 /**
  * Every field the form shows, as a pointer, with what stands in it.
  * @param {SceneDocument} document
- * @returns {{pointer: string, value: unknown, type: FieldType, material: string[]}[]}
+ * @returns {Part[]}
  */
 export function shownFields(document) {
   return SECTIONS.flatMap((section) =>
@@ -127,10 +143,14 @@ export function shownFields(document) {
   );
 }
 
-/** @param {string} pointer @param {FieldType} type @param {unknown} value @param {unknown} row @param {number} dimension */
+/** @param {string} pointer @param {FieldType} type @param {unknown} value @param {unknown} row @param {number} dimension @returns {Part[]} */
 function parts(pointer, type, value, row, dimension) {
   const material = materialOf(row);
-  if (type === "vector") {
+  if (type === "tensor" && isTensor(value))
+    return componentsOf(value, dimension).flatMap((c) =>
+      parts(`${pointer}/${c}`, "vector", rowsOf(value)[c], row, dimension),
+    );
+  if (type === "vector" || type === "tensor") {
     return componentsOf(value, dimension).map((c) => ({
       pointer: `${pointer}/${c}`,
       value: rowsOf(value)[c],

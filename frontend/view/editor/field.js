@@ -5,9 +5,11 @@ import { inline } from "../formula.js";
 import {
   componentsOf,
   dimensionOf,
+  isTensor,
   materialOf,
   memberOf,
   nameOf,
+  otherInertia,
   rowsOf,
   standardOf,
 } from "../../model/editor/schema.js";
@@ -96,6 +98,31 @@ function vector(sheet, pointer, label, { row }, key) {
   )}</div>`;
 }
 
+/** Principal moments, or the rows of a tensor. @param {Sheet} sheet @param {string} pointer @param {string} label @param {Row} at @param {string} key */
+function tensor(sheet, pointer, label, at, key) {
+  const given = memberOf(at.row, key);
+  const other = () => sheet.put(pointer, otherInertia(given));
+  return html`<div class="tensor">
+    ${
+      isTensor(given)
+        ? rowsOf(given).map(
+            (row, k) =>
+              html`<div class="vector">${[0, 1, 2].map((l) =>
+                expression(
+                  sheet,
+                  `${pointer}/${k}/${l}`,
+                  html`${label}<sub>${k + 1}${l + 1}</sub>`,
+                  rowsOf(row)[l],
+                  [],
+                ),
+              )}</div>`,
+          )
+        : vector(sheet, pointer, label, at, key)
+    }
+    <div class="actions"><button class="quiet small" @click=${other}>${sheet.t(isTensor(given) ? "editor.inertia-principal" : "editor.inertia-tensor")}</button></div>
+  </div>`;
+}
+
 /** @param {Sheet} sheet @param {string} pointer @param {unknown} row */
 function material(sheet, pointer, row) {
   const { t } = sheet;
@@ -127,6 +154,7 @@ export function fieldOf(sheet, at, { key, type }) {
   ].map(nameOf);
   const coordinates = rowsOf(document.coordinates).map(nameOf);
   if (type === "vector") return vector(sheet, pointer, label, at, key);
+  if (type === "tensor") return tensor(sheet, pointer, label, at, key);
   if (type === "expression") return expression(sheet, pointer, label, value, materialOf(row));
   if (type === "material") return material(sheet, pointer, row);
   if (type === "number")

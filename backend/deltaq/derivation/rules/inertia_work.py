@@ -1,6 +1,6 @@
 """From d'Alembert to Lagrange: ∫ ∂r/∂qᵢ · v̇ dm = d/dt ∂E/∂q̇ᵢ − ∂E/∂qᵢ, both sides computed.
 
-Bodies that turn add Jₖ ω̇ₖ ∂ωₖ/∂q̇ᵢ for their principal axes, in space with Euler's (ω × Jω)ₖ.
+Bodies that turn add ∂ωₖ/∂q̇ᵢ Σ Jₖₗ ω̇ₗ for their axes, in space with Euler's (ω × Jω)ₖ.
 Source: Lagrange, Mécanique analytique (1788); Lurie, Analytical Mechanics, ch. 4; the lecture.
 """
 
@@ -56,20 +56,29 @@ def _tangent_times_acceleration(system: System, body: str, coordinate: str) -> D
 
 
 def _turning(system: System, part: Rotation, coordinate: str) -> Iterator[Formula]:
-    """∂ωₖ/∂q̇ᵢ (Jₖ ω̇ₖ + (ω × Jω)ₖ) for every axis."""
-    moments = [system.expression(moment) for moment in part.inertia]
+    """∂ωₖ/∂q̇ᵢ (Σ Jₖₗ ω̇ₗ + (ω × Jω)ₖ) for every axis."""
+    tensor = _tensor(system, part)
     omegas = system.named_angular_velocities(part)
-    euler = _gyroscopic(moments, [omega.value for omega in omegas])
-    for moment, omega, extra in zip(moments, omegas, euler, strict=True):
+    euler = _gyroscopic(tensor, [omega.value for omega in omegas])
+    for k, (omega, extra) in enumerate(zip(omegas, euler, strict=True)):
         lever = Partial(omega, system.rate(coordinate))
-        turning: Formula = Times((Explicit(moment), Rate(omega)))
-        whole = turning if extra == 0 else Plus((Term(turning), Term(Explicit(extra))))
-        yield Times((lever, whole))
+        turning = [Times((Explicit(tensor[k, l]), Rate(each))) for l, each in enumerate(omegas) if tensor[k, l] != 0]
+        whole: list[Formula] = [*turning, *([Explicit(extra)] if extra != 0 else [])]
+        if whole:
+            yield Times((lever, whole[0] if len(whole) == 1 else Plus(tuple(map(Term, whole)))))
 
 
-def _gyroscopic(moments: list[sp.Expr], omegas: list[sp.Expr]) -> list[sp.Expr]:
+def _tensor(system: System, part: Rotation) -> sp.Matrix:
+    size = len(part.inertia)
+    tensor = sp.zeros(size, size)
+    for k, l, entry in part.entries:
+        tensor[k, l] = tensor[l, k] = system.expression(entry)
+    return tensor
+
+
+def _gyroscopic(tensor: sp.Matrix, omegas: list[sp.Expr]) -> list[sp.Expr]:
     """(ω × Jω)ₖ; nothing in the plane."""
-    if len(moments) == 1:
+    if len(omegas) == 1:
         return [sp.Integer(0)]
-    spin = sp.Matrix([j * w for j, w in zip(moments, omegas, strict=True)])
-    return list(sp.Matrix(omegas).cross(spin))
+    omega = sp.Matrix(omegas)
+    return list(omega.cross(tensor * omega))

@@ -1,7 +1,7 @@
-"""König's theorem: E = m/2 v · v + 1/2 Σ Jₖ ωₖ², the centre of mass and the turning about it apart.
+"""König's theorem: E = m/2 v · v + 1/2 Σ Jₖₗ ωₖ ωₗ, the centre of mass and the turning about it apart.
 
-The Jₖ are principal moments of inertia about the centre of mass, the ωₖ the components of the angular velocity in the
-body frame; in the plane there is one of each.
+The Jₖₗ are the tensor of inertia about the centre of mass, the ωₖ the components of the angular velocity, both along
+axes of the body: 1/2 Σ Jₖ ωₖ² if these are principal ones. In the plane there is one of each.
 Source: Goldstein, Poole, Safko, Classical Mechanics, 3rd ed., §5.3.
 """
 
@@ -22,7 +22,7 @@ BODY = RigidBody
 
 
 def apply(system: System, body: Body) -> Step:
-    """Each ωₖ by the rates of the coordinates, then E = m/2 v · v + 1/2 Σ Jₖ ωₖ² of one body and its value."""
+    """Each ωₖ by the rates of the coordinates, then E = m/2 v · v + 1/2 Σ Jₖₗ ωₖ ωₗ of one body and its value."""
     turning = [part for part in body.kinetics if isinstance(part, Rotation)]
     law = Plus((Term(half_mass_times_square(system, body)), *(t for part in turning for t in _rotation(system, part))))
     lines = (
@@ -33,9 +33,11 @@ def apply(system: System, body: Body) -> Step:
 
 
 def _rotation(system: System, part: Rotation) -> Iterator[Term]:
-    """1/2 Jₖ ωₖ² for each principal axis."""
-    for moment, omega in zip(part.inertia, system.named_angular_velocities(part), strict=True):
-        yield Term(Times((Explicit(system.expression(moment) / 2), omega, omega)))
+    """1/2 Jₖₖ ωₖ² for each axis, Jₖₗ ωₖ ωₗ for each pair of axes with a product of inertia."""
+    omega = system.named_angular_velocities(part)
+    for k, l, entry in part.entries:
+        factor = system.expression(entry) / (1 + (k == l))
+        yield Term(Times((Explicit(factor), omega[k], omega[l])))
 
 
 def _angular_velocities(system: System, part: Rotation) -> Iterator[Relation]:
