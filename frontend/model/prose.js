@@ -22,7 +22,8 @@ export const plainly = (sentence) =>
     .join("");
 
 // What the server marks in formulas, and the page itself where a term comes from; names of users stand behind the hyphen.
-const OWN = /^(?:(?:q|p|body|load|constraint|energy|term|vector|of)-[\w-]+|t(?:-\d+){3}|differential|variation|time-term|slip)$/;
+const OWN =
+  /^(?:(?:q|p|body|load|constraint|energy|term|vector|of)-[\w-]+|t(?:-\d+){3}|differential|variation|time-term|slip)$/;
 
 /** Whether all of these are classes that formulas have; any other would let LaTeX look like a part of the page. @param {string} classes */
 export const areOfFormulas = (classes) => classes.split(/\s+/).every((name) => OWN.test(name));

@@ -42,6 +42,10 @@ export function snapshotAt(trajectory, t) {
   };
 }
 
+/** The multipliers of constraints at time t. @param {Trajectory} trajectory @param {number} t @returns {Record<string, number>} */
+export const multipliersAt = ({ t: times, multipliers }, t) =>
+  mapped(multipliers ?? {}, (values) => scalarAt(values, blendAt(times, t)));
+
 /** The last time with a sample. @param {Trajectory | null} trajectory */
 export function endOf(trajectory) {
   return trajectory?.t.at(-1) ?? 0;

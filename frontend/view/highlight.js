@@ -1,14 +1,14 @@
 /** Pointing at a quantity lights it up wherever it stands: in formulas, drawing, plots and sliders; so does walking through the terms of a formula. */
 
-const QUANTITY = /^([pq]-\d+|load-.+|body-.+|energy-(kinetic|potential)|time-term)$/;
-const SOURCE = /^(load|body)-/;
-const TOGETHER = /^(load|body|p)-/;
+const QUANTITY = /^([pq]-\d+|load-.+|body-.+|constraint-.+|energy-(kinetic|potential)|time-term)$/;
+const SOURCE = /^(load|body|constraint)-/;
+const TOGETHER = /^(load|body|constraint|p)-/;
 /** Of a symbol of the whole system: what of the drawing belongs to it, without its colour. */
 const BELONGS = /^of-/;
-const VECTOR = /^vector-[rv]$/;
+const VECTOR = /^vector-[rvz]$/;
 
 /**
- * The innermost quantity at an element: one name, or all bodies and loads that a term comes from, with their parameters.
+ * The innermost quantity at an element: one name, or all bodies, loads and constraints that a term comes from, with their parameters.
  * @param {Element | null} element @returns {string[]}
  */
 function quantitiesAt(element) {
@@ -22,12 +22,13 @@ function quantitiesAt(element) {
   return [];
 }
 
-/** The symbol of a place or velocity at an element, and whose it is. @param {Element | null | undefined} element */
+/** The symbol of a place, velocity or reaction at an element, and whose it is. @param {Element | null | undefined} element */
 function vectorsAt(element) {
   const classes = [...(element?.closest("[class*='vector-']")?.classList ?? [])];
   const vector = classes.find((name) => VECTOR.test(name))?.at(-1);
-  const bodies = classes.filter((name) => name.startsWith("body-")).map((name) => name.slice(5));
-  return vector ? bodies.map((body) => ({ body, vector })) : [];
+  const owner = vector === "z" ? "constraint-" : "body-";
+  const owners = classes.filter((name) => name.startsWith(owner)).map((name) => name.slice(owner.length));
+  return vector ? [...new Set(owners)].map((of) => ({ of, vector })) : [];
 }
 
 /** What the letters of a term stand for. @param {readonly Element[]} symbols */
@@ -37,13 +38,13 @@ function within(symbols) {
   return { names: letters.flatMap(quantitiesAt), vectors: letters.flatMap(vectorsAt) };
 }
 
-/** Lights what belongs together, and tells of symbols of places and velocities by the event "lit" and in `data-vectors`. @param {HTMLElement} root */
+/** Lights what belongs together, and tells of symbols of places, velocities and reactions by the event "lit" and in `data-vectors`. @param {HTMLElement} root */
 export function linkHighlights(root) {
   let [lit, arrows] = ["", "[]"];
 
   /** @param {string[]} names @param {ReturnType<typeof vectorsAt>} vectors */
   function light(names, vectors) {
-    const each = [...new Map(vectors.map((one) => [`${one.vector} ${one.body}`, one])).values()];
+    const each = [...new Map(vectors.map((one) => [`${one.vector} ${one.of}`, one])).values()];
     const told = JSON.stringify(each);
     // Kept as well: who draws them may come later.
     root.dataset.vectors = told;

@@ -202,6 +202,21 @@ def test_pointing_works_both_ways(lecture: Lecture) -> None:
     expect(page.locator(".plots .trace.energy-kinetic.lit")).to_have_count(1)
 
 
+def test_a_multiplier_shows_what_keeps_its_constraint(lecture: Lecture) -> None:
+    """Pointing at S lights the rod and its curve, and its reaction appears where the rod pulls; the rod lights S."""
+    page = open_at_rest(lecture, "?scene=cartesian-pendulum&lang=en&step=work-of-reaction:rod&with=bars")
+    page.locator(".plots.ready").wait_for()
+    page.locator(".energies").wait_for(state="attached")
+    letter = page.locator(".step[aria-current] .formula .katex-html .q-2.vector-z").first
+    letter.dispatch_event("pointerover")
+    expect(page.locator(".drawing .rod.constraint-rod.lit").first).to_be_attached()
+    expect(page.locator(".plots .trace.q-2.lit")).to_have_count(1)
+    expect(page.locator(".vectors .vector-z.constraint-rod")).not_to_have_count(0)
+    page.locator(".drawing .rod.constraint-rod").first.dispatch_event("pointerover")
+    expect(page.locator(".vectors .vector-z")).to_have_count(0)
+    expect(letter).to_have_class(re.compile(r"\blit\b"))
+
+
 @pytest.mark.smooth
 def test_nothing_shifts_while_the_figure_is_used(lecture: Lecture) -> None:
     """Steps with their marks, the instruments that come, a variation: none of them moves what was there."""

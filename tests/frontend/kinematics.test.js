@@ -5,6 +5,7 @@ import { configured, kinematicsOf } from "../../frontend/model/kinematics/kinema
 import { reached } from "../../frontend/model/kinematics/reach.js";
 import { snapshotAt } from "../../frontend/model/trajectory.js";
 import { readChoice, writeChoice } from "../../frontend/model/virtual/choice.js";
+import { reactionOf } from "../../frontend/model/figure/reactions.js";
 import { vectorFigure, vectorSymbols } from "../../frontend/model/figure/vectors.js";
 import { virtualFigure } from "../../frontend/model/virtual/figure.js";
 import { virtualOf } from "../../frontend/model/virtual/virtual.js";
@@ -109,8 +110,8 @@ test("r leads from the origin to its body, v along its motion, with the symbols 
   const step = /** @type {any} */ ({ marked: "\\htmlClass{body-bob vector-r}{\\mathbf{r}_{\\text{el}}} = \\htmlClass{body-bob}{\\delta\\mathbf{r}_{\\text{x}}} + \\htmlClass{body-bob}{\\mathbf{v}}" });
   const symbols = vectorSymbols([{ steps: [step] }]);
   const at = (/** @type {number} */ t) => ({ ...snapshotAt(trajectory, t), rates: { y: 0, phi: 0.25 } });
-  const arrows = /** @type {const} */ ([{ body: "bob", vector: "r" }, { body: "bob", vector: "v" }, { body: "none", vector: "v" }]);
-  const { shapes, labels } = vectorFigure(stage, now, arrows, { kinematics, symbols, at, end: 4 });
+  const arrows = /** @type {const} */ ([{ of: "bob", vector: "r" }, { of: "bob", vector: "v" }, { of: "none", vector: "v" }]);
+  const { shapes, labels } = vectorFigure(stage, now, arrows, { kinematics, symbols, at, multipliers: () => ({}), end: 4 });
   assert.deepEqual(labels.map(({ latex }) => latex), ["\\mathbf{r}_{\\text{el}}", "\\mathbf{v}"]);
   const ends = shapes.map(({ d }) => [d.slice(1).split("L")[0], d.slice(d.lastIndexOf("M") + 1).split("L")[0]].map((pair) => pair.split(" ").map(Number)));
   const [[origin, tip], [from, to]] = ends;
@@ -120,4 +121,33 @@ test("r leads from the origin to its body, v along its motion, with the symbols 
   close(from, stage.project(now.positions.bob));
   const [vx, vy] = [0.25 * Math.cos(0.25), 0.5 * Math.cos(1) - 0.25 * Math.sin(0.25)];
   assert.ok(Math.abs(Math.atan2(to[1] - from[1], to[0] - from[0]) - Math.atan2(vy, vx)) < 1e-3);
+});
+
+/** Two particles on rods from the origin, in Cartesian coordinates, and one whose velocity keeps to a direction. */
+const rods = /** @type {any} */ ({
+  dimension: 2, coordinates: ["x", "y", "u", "w", "phi"].map((name) => ({ name })), parameters: [], bodies: [{ name: "upper" }, { name: "lower" }], loads: [], points: [{ name: "pivot" }],
+  constraints: [{ name: "first", kind: "distance", from: "pivot", to: "upper" }, { name: "second", kind: "distance", from: "upper", to: "lower" }, { name: "edge", kind: "equation" }, { name: "both", kind: "equation" }],
+});
+const expressed = (/** @type {Record<string, string>} */ forces) => Object.entries(forces).map(([coordinate, plain]) => ({ coordinate, plain }));
+const held = kinematicsOf(rods, /** @type {any} */ ({
+  points: { pivot: { plain: ["0", "0"] }, tip: { plain: ["u + 2*cos(phi)", "w + 2*sin(phi)"] } },
+  positions: { upper: { plain: ["x", "y"] }, lower: { plain: ["u", "w"] } },
+  constraints: [
+    { name: "first", multiplier: { plain: "S" }, forces: expressed({ x: "-S*x/sqrt(x^2 + y^2)", y: "-S*y/sqrt(x^2 + y^2)" }) },
+    { name: "second", multiplier: { plain: "T" }, forces: [] },
+    { name: "edge", multiplier: { plain: "lambda" }, forces: expressed({ u: "-3*lambda*sin(phi)", w: "3*lambda*cos(phi)", phi: "6*lambda" }) },
+    { name: "both", multiplier: { plain: "mu" }, forces: expressed({ x: "mu", phi: "mu" }) },
+  ],
+}), {});
+
+test("a rod pulls at both ends that can move, and a constraint acts at the place whose work is the same", () => {
+  const here = /** @type {any} */ ({ t: 0, coordinates: { x: 3, y: 4, u: 3, w: 6, phi: 0.5 }, rates: {}, positions: { pivot: [0, 0], upper: [3, 4], lower: [3, 6] } });
+  const of = (/** @type {string} */ name) => reactionOf(rods, held, here, { S: 10, T: 2, lambda: 4, mu: 1 }, name);
+  const places = (/** @type {ReturnType<typeof of>} */ found) => found.map(({ place, force, plain }) => [place, ...force.map((x) => Number(x.toFixed(6)) + 0), plain]);
+  assert.deepEqual(places(of("first")), [["upper", -6, -8, true]]);
+  assert.deepEqual(places(of("second")), [["lower", 0, -2, true], ["upper", 0, 2, true]]);
+  const [edge] = of("edge");
+  assert.deepEqual([edge.place, edge.plain], ["tip", false]);
+  assert.ok(near(edge.force, [-12 * Math.sin(0.5), 12 * Math.cos(0.5)]));
+  assert.deepEqual([of("both"), of("none")], [[], []]);
 });

@@ -21,8 +21,8 @@ from deltaq.simulation.service import run
 SEEN = 0.5
 # Letters for which there is no room at some moments, as part of all: most of them fade where their angle closes.
 LEFT_OUT = 0.15
-# Symbols of formulas that have a mark in the drawing, as part of all of a scene: 72 to 90 %, and 85 % of all together.
-MARKED = 0.7
+# Symbols of formulas that have a mark in the drawing, as part of all of a scene: 88 to 100 %, and 99 % of all together.
+MARKED = 0.85
 
 
 class Drawing:

@@ -97,10 +97,15 @@ export function homesOf(scene, elements) {
     });
   }
   const bodies = bodiesOf(scene, elements, moved);
+  const kept = constraintsOf(scene, elements, moved);
+  const loads = loadsOf(scene, elements, moved);
   return found.map((parameters, i) =>
-    [...parameters.map(({ name }) => parameterClass(scene, name)), ...bodies[i].map((name) => `body-${name}`)].join(
-      " ",
-    ),
+    [
+      ...parameters.map(({ name }) => parameterClass(scene, name)),
+      ...bodies[i].map((name) => `body-${name}`),
+      ...kept[i].map((name) => `constraint-${name}`),
+      ...loads[i].map((name) => `load-${name}`),
+    ].join(" "),
   );
 }
 
@@ -122,6 +127,43 @@ function bodiesOf(scene, elements, moved) {
     elements.forEach(({ kind }, i) => {
       const same = alike.some((one, j) => one && BODIES.test(elements[j].kind)) ? alike[i] : share(moved[i], own);
       if (BODIES.test(kind) && same) found[i].push(name);
+    });
+  }
+  return found;
+}
+
+/**
+ * What keeps a constraint: the rod between its two places, else the bodies that move by coordinates that it binds.
+ * @param {Scene} scene @param {readonly Element[]} elements @param {readonly Set<string>[]} moved @returns {string[][]}
+ */
+function constraintsOf({ constraints, coordinates }, elements, moved) {
+  const found = elements.map(() => /** @type {string[]} */ ([]));
+  for (const { name, from, to, equation } of constraints ?? []) {
+    const between = elements.map((element) => Boolean(from) && element.from === from && element.to === to);
+    const names = namesIn(equation ?? "");
+    const bound = coordinates.map((one) => one.name).filter((one) => names.has(one));
+    elements.forEach((_, i) => {
+      if (between.includes(true) ? between[i] : share(moved[i], bound)) found[i].push(name ?? "");
+    });
+  }
+  return found;
+}
+
+/**
+ * Loads that no element shows: with the bodies that move by what is in them, else by where they act.
+ * @param {Scene} scene @param {readonly Element[]} elements @param {readonly Set<string>[]} moved @returns {string[][]}
+ */
+function loadsOf(scene, elements, moved) {
+  const found = elements.map(() => /** @type {string[]} */ ([]));
+  const coordinates = scene.coordinates.map(({ name }) => name);
+  const hidden = scene.loads.filter(
+    ({ kind, name }) => kind !== "gravity" && !elements.some(({ load }) => load === name),
+  );
+  for (const load of hidden) {
+    const names = new Set([...inLoad(scene, load.name), ...behind(scene, load.at)]);
+    const by = coordinates.filter((name) => names.has(name));
+    elements.forEach((_, i) => {
+      if (share(moved[i], by)) found[i].push(load.name);
     });
   }
   return found;

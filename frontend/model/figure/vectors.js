@@ -1,10 +1,11 @@
 /**
  * Positions and velocities of bodies as arrows, with the symbols that they have in the formulas: r from the origin, v where
- * the body is.
+ * the body is; and reactions of constraints where they act.
  */
 
 import { add, lengthOf, normal, scaled, subtract, unit } from "../drawing/geometry.js";
 import { solidArrow } from "../drawing/marks.js";
+import { reactionOf } from "./reactions.js";
 
 /** @typedef {import("../types.js").Figure} Figure */
 /** @typedef {import("../types.js").Pixel} Pixel */
@@ -12,8 +13,9 @@ import { solidArrow } from "../drawing/marks.js";
 /** @typedef {import("../types.js").Trajectory} Trajectory */
 /** @typedef {import("../drawing/stage.js").Stage} Stage */
 /** @typedef {import("../kinematics/kinematics.js").Kinematics} Kinematics */
-/** @typedef {"r" | "v"} Vector */
-/** @typedef {{body: string, vector: Vector}} Arrow */
+/** @typedef {"r" | "v" | "z"} Vector  z: a reaction */
+/** @typedef {{of: string, vector: Vector}} Arrow  of: a body, or a constraint */
+/** @typedef {{kinematics: Kinematics, symbols: Map<string, string>, at: (t: number) => Snapshot, multipliers: (t: number) => Record<string, number>, end: number}} Motion  at: the motion, which ends at `end` */
 
 const SYMBOL =
   /\\htmlClass\{body-([\w-]+)(?: vector-[rv])?\}\{(\\mathbf\{([rv])\}(?:_(?:\{(?:[^{}]|\{[^{}]*\})*\}|\w))?)\}/g;
@@ -24,12 +26,15 @@ const SHORTEST = 0.6;
 const LOOKS = 60;
 
 /** @param {Arrow} arrow */
-const keyOf = ({ body, vector }) => `${vector} ${body}`;
+const keyOf = ({ of, vector }) => `${vector} ${of}`;
 
-/** The symbols of places and velocities as a derivation writes them, by vector and body. @param {readonly {steps: import("../types.js").Step[]}[]} chapters @returns {Map<string, string>} */
-export function vectorSymbols(chapters) {
-  /** @type {Map<string, string>} */
-  const found = new Map();
+/**
+ * The symbols of places and velocities as a derivation writes them, and of multipliers, by vector and what it is of.
+ * @param {readonly {steps: import("../types.js").Step[]}[]} chapters
+ * @param {{constraints?: readonly {name: string, multiplier: {latex: string}}[]} | null} [result] @returns {Map<string, string>}
+ */
+export function vectorSymbols(chapters, result) {
+  const found = new Map((result?.constraints ?? []).map(({ name, multiplier }) => [`z ${name}`, multiplier.latex]));
   for (const { steps } of chapters)
     for (const { marked } of steps)
       for (const [, body, latex, vector] of (marked ?? "").matchAll(SYMBOL)) {
@@ -55,51 +60,75 @@ function fastest(kinematics, moments, bodies) {
   return Math.max(1e-12, ...speeds.filter(Number.isFinite));
 }
 
+/** @param {Motion} motion */
+const looks = ({ at, end }) => Array.from({ length: LOOKS + 1 }, (_, i) => at((i * end) / LOOKS));
+
 /**
- * @param {Stage} stage @param {Snapshot} now @param {readonly Arrow[]} arrows
- * @param {{kinematics: Kinematics, symbols: Map<string, string>, at: (t: number) => Snapshot, end: number}} about  at: the motion, which ends at `end`
+ * @param {Stage} stage @param {Snapshot} now @param {readonly Arrow[]} arrows @param {Motion} motion
  * @returns {Figure}
  */
-export function vectorFigure(stage, now, arrows, { kinematics, symbols, at, end }) {
+export function vectorFigure(stage, now, arrows, motion) {
+  const { kinematics, symbols } = motion;
   const bodies = stage.scene.bodies.map(({ name }) => name);
-  const largest = stage.once("fastest", () =>
-    fastest(
-      kinematics,
-      Array.from({ length: LOOKS + 1 }, (_, i) => at((i * end) / LOOKS)),
-      bodies,
-    ),
-  );
   const velocities = velocitiesOf(kinematics, now);
   const origin = stage.project(Array.from({ length: stage.scene.dimension }, () => 0));
-  const figures = arrows.map((arrow) => {
-    const place = now.positions[arrow.body];
-    if (!place?.every(Number.isFinite)) return { shapes: [], labels: [] };
+  const figures = arrows.flatMap((arrow) => {
+    if (arrow.vector === "z") return reactionFigures(stage, now, arrow, motion);
+    const place = now.positions[arrow.of];
+    if (!place?.every(Number.isFinite)) return [];
     const there = stage.project(place);
+    const largest = stage.once("fastest", () => fastest(kinematics, looks(motion), bodies));
     const given =
       arrow.vector === "r"
         ? { from: origin, along: subtract(there, origin) }
-        : { from: there, along: scaled(stage.direct(velocities[arrow.body] ?? []), speedScale(stage, largest)) };
-    return labelled(stage, arrow, given, symbols.get(keyOf(arrow)) ?? `\\mathbf{${arrow.vector}}`);
+        : { from: there, along: scaled(stage.direct(velocities[arrow.of] ?? []), speedScale(stage, largest)) };
+    return [labelled(stage, arrow, given, symbols.get(keyOf(arrow)) ?? `\\mathbf{${arrow.vector}}`)];
   });
   return { shapes: figures.flatMap(({ shapes }) => shapes), labels: figures.flatMap(({ labels }) => labels) };
 }
 
-/** From metres a second, which `direct` has made pixels, to arrows of the drawing. @param {Stage} stage @param {number} largest */
+/** The reaction of a constraint at each place where it acts; all have one scale along the motion. @param {Stage} stage @param {Snapshot} now @param {Arrow} arrow @param {Motion} motion @returns {Figure[]} */
+function reactionFigures(stage, now, arrow, motion) {
+  const { kinematics, symbols, multipliers } = motion;
+  const at = (/** @type {Snapshot} */ moment) =>
+    reactionOf(stage.scene, kinematics, moment, multipliers(moment.t), arrow.of);
+  const largest = stage.once(`reaction ${arrow.of}`, () =>
+    Math.max(1e-12, ...looks(motion).flatMap((moment) => at(moment).map(({ force }) => Math.hypot(...force)))),
+  );
+  return at(now).map(({ place, force, plain }, i) => {
+    const given = {
+      from: stage.project(now.positions[place]),
+      along: scaled(stage.direct(force), speedScale(stage, largest)),
+    };
+    const symbol = plain ? symbols.get(keyOf(arrow)) : undefined;
+    const { shapes, labels } = labelled(stage, arrow, given, symbol ?? "\\mathbf{F}^{z}", `-${place}`);
+    return { shapes, labels: i ? [] : labels };
+  });
+}
+
+/** From metres a second or newtons, which `direct` has made pixels, to arrows of the drawing. @param {Stage} stage @param {number} largest */
 const speedScale = (stage, largest) => (LONGEST * stage.unit) / (largest * stage.scale);
 
-/** @param {Stage} stage @param {Arrow} arrow @param {{from: Pixel, along: Pixel}} given @param {string} latex @returns {Figure} */
-function labelled({ unit: u }, { body, vector }, { from, along }, latex) {
+/** Of the colour of its multiplier. @param {import("../types.js").Scene} scene @param {string} name */
+const reactionClass = ({ coordinates, constraints }, name) =>
+  `q-${coordinates.length + (constraints ?? []).findIndex((one) => one.name === name)} constraint-${name}`;
+
+/** @param {Stage} stage @param {Arrow} arrow @param {{from: Pixel, along: Pixel}} given @param {string} latex @param {string} [which]  of several @returns {Figure} */
+function labelled({ unit: u, scene }, { of, vector }, { from, along }, latex, which = "") {
   const long = lengthOf(along);
   if (!(long > SHORTEST * u)) return { shapes: [], labels: [] };
-  const key = `vector-${vector}-${body}`;
-  const className = `vector vector-${vector} body-${body}`;
+  const key = `vector-${vector}-${of}${which}`;
+  const className = `vector vector-${vector} ${vector === "z" ? reactionClass(scene, of) : `body-${of}`}`;
   const aside = normal(unit(along));
   const on = (/** @type {number} */ part, /** @type {number} */ out) =>
     add(add(from, scaled(along, part)), scaled(aside, out * u));
+  // What a rod pulls lies on it: its letter stands beside it.
   const [first, ...others] =
     vector === "r"
       ? [0.6, 0.4, 0.75, 0.25].flatMap((part) => [on(part, 1.2), on(part, -1.2)])
-      : [on(1 + (1.2 * u) / long, 0), on(0.8, 1.3), on(0.8, -1.3), on(0.4, 1.3), on(0.4, -1.3)];
+      : [on(1 + (1.2 * u) / long, 0), on(0.8, 1.3), on(0.8, -1.3), on(0.4, 1.3), on(0.4, -1.3)].slice(
+          vector === "z" ? 1 : 0,
+        );
   return {
     shapes: solidArrow(from, along, key, className, Math.min(u, 0.5 * long)),
     labels: [{ key, latex, at: first, others, className }],

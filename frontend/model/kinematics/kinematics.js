@@ -17,6 +17,7 @@ const H = 1e-5;
  * @property {(q: Values, t: number) => Places} places
  * @property {(q: Values, t: number, along: Values, time?: number) => Places} slope  Σ ∂r/∂qᵢ·alongᵢ + ∂r/∂t·time of every place
  * @property {(q: Values, rates: Values, t: number, delta: Values) => {load: string, work: number}[]} works  δW of every load
+ * @property {(now: Snapshot, multipliers: Values) => {constraint: string, multiplier: number, forces: Values}[]} reactions  Qᵢ of every constraint
  */
 
 /**
@@ -32,6 +33,11 @@ export function kinematicsOf(scene, result, parameters) {
   const terms = (result.virtual_work?.terms ?? []).map(({ plain, sources }) => ({
     work: evaluator(plain),
     load: sources[0] ?? "",
+  }));
+  const constraints = (result.constraints ?? []).map(({ name, multiplier, forces }) => ({
+    name,
+    multiplier: multiplier.plain,
+    forces: forces.map(({ coordinate, plain }) => ({ coordinate, of: evaluator(plain) })),
   }));
 
   /** @param {Values} q @param {number} t @returns {Places} */
@@ -55,6 +61,14 @@ export function kinematicsOf(scene, result, parameters) {
       return loads.map((load) => ({
         load: load.replace(/^load:/, ""),
         work: terms.filter((term) => term.load === load).reduce((sum, term) => sum + term.work(values), 0),
+      }));
+    },
+    reactions({ coordinates, rates, t }, multipliers) {
+      const values = { ...given, ...coordinates, ...wrapped("dot", rates), ...multipliers, t };
+      return constraints.map(({ name, multiplier, forces }) => ({
+        constraint: name,
+        multiplier: multipliers[multiplier] ?? NaN,
+        forces: Object.fromEntries(forces.map(({ coordinate, of }) => [coordinate, of(values)])),
       }));
     },
   };

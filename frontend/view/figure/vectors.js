@@ -1,8 +1,8 @@
-/** Arrows r and v of bodies: of those whose symbols are pointed at, and of all while their tool is on. */
+/** Arrows r and v of bodies and reactions of constraints: of those whose symbols are pointed at, and of all while their tool is on. */
 
 import { placed } from "../../model/drawing/placing.js";
 import { vectorFigure, vectorSymbols } from "../../model/figure/vectors.js";
-import { endOf, snapshotAt } from "../../model/trajectory.js";
+import { endOf, multipliersAt, snapshotAt } from "../../model/trajectory.js";
 
 /** @typedef {import("../../model/figure/vectors.js").Arrow} Arrow */
 
@@ -17,15 +17,18 @@ export function createVectors(bench, { draw }) {
   let known = { of: null, symbols: new Map() };
 
   function symbols() {
-    const chapters = state().derivation?.chapters ?? [];
-    if (known.of !== chapters) known = { of: chapters, symbols: vectorSymbols(chapters) };
+    const { chapters = [], result = null } = state().derivation ?? {};
+    if (known.of !== chapters) known = { of: chapters, symbols: vectorSymbols(chapters, result) };
     return known.symbols;
   }
 
   function wanted() {
     const { place, scene } = state();
-    const all = place.with.split(",").includes("vectors") ? (scene?.bodies ?? []) : [];
-    if (all.length) return all.flatMap(({ name: body }) => VECTORS.map((vector) => ({ body, vector })));
+    if (scene && place.with.split(",").includes("vectors"))
+      return [
+        ...scene.bodies.flatMap(({ name: of }) => VECTORS.map((vector) => ({ of, vector }))),
+        ...(scene.constraints ?? []).map(({ name }) => ({ of: name ?? "", vector: /** @type {const} */ ("z") })),
+      ];
     const { vectors } = root.dataset;
     return vectors && vectors !== "[]" ? pointedAt(vectors) : [];
   }
@@ -41,8 +44,9 @@ export function createVectors(bench, { draw }) {
     const { trajectory } = state();
     if (!arrows.length || !moving || !moment || !stage || !trajectory) return clear();
     const at = (/** @type {number} */ t) => snapshotAt(trajectory, t);
-    const about = { kinematics: moving, symbols: symbols(), at, end: endOf(trajectory) };
-    draw(placed(stage, vectorFigure(stage, moment, arrows, about), clock.time, ground), stage.size);
+    const multipliers = (/** @type {number} */ t) => multipliersAt(trajectory, t);
+    const motion = { kinematics: moving, symbols: symbols(), at, multipliers, end: endOf(trajectory) };
+    draw(placed(stage, vectorFigure(stage, moment, arrows, motion), clock.time, ground), stage.size);
     drawn = true;
   }
 

@@ -1,0 +1,90 @@
+/**
+ * Reactions of constraints as arrows: a rod pulls both of its ends together by its multiplier; of any other constraint
+ * the force F(P) at the one place P that does the same work, Qᵢ = F · ∂r(P)/∂qᵢ for every coordinate, where there is one.
+ */
+
+/** @typedef {import("../types.js").Snapshot} Snapshot */
+/** @typedef {import("../types.js").Scene} Scene */
+/** @typedef {import("../kinematics/kinematics.js").Kinematics} Kinematics */
+/** @typedef {{place: string, force: number[], plain: boolean}} Reaction  plain: as large as the multiplier */
+
+/** Part of the generalized forces that a force at one place may leave over. */
+const LEFT = 1e-4;
+
+/** @param {readonly number[]} a @param {readonly number[]} b */
+const dot = (a, b) => a.reduce((sum, x, i) => sum + x * b[i], 0);
+
+/**
+ * The F of least squares with J F = Q, by elimination with pivots on JᵀJ F = JᵀQ; components that do no work are 0.
+ * @param {readonly number[][]} rows  J: a row for each coordinate @param {readonly number[]} given  Q
+ */
+function leastSquares(rows, given) {
+  const size = rows[0]?.length ?? 0;
+  const columns = Array.from({ length: size }, (_, c) => rows.map((row) => row[c]));
+  const system = columns.map((column) => [...columns.map((other) => dot(column, other)), dot(column, given)]);
+  const scale = Math.max(...system.map((row, i) => row[i]), 0);
+  /** @type {number[]} */
+  const pivots = [];
+  for (let c = 0; c < size; c += 1) {
+    const free = system.map((_, i) => i).filter((i) => !pivots.includes(i));
+    const pivot = free.reduce((best, i) => (Math.abs(system[i][c]) > Math.abs(system[best][c]) ? i : best), free[0]);
+    if (!(Math.abs(system[pivot][c]) > 1e-10 * scale)) return columns.map(() => NaN);
+    pivots.push(pivot);
+    system.forEach((row, i) => {
+      if (i === pivot) return;
+      const part = row[c] / system[pivot][c];
+      row.forEach((_, k) => (row[k] -= part * system[pivot][k]));
+    });
+  }
+  return pivots.map((pivot, c) => system[pivot][size] / system[pivot][c]);
+}
+
+/** How every place moves with each coordinate: ∂r/∂qᵢ by place. @param {Kinematics} kinematics @param {Snapshot} now @param {readonly string[]} coordinates */
+function slopesOf(kinematics, { coordinates: q, t }, coordinates) {
+  const along = coordinates.map((name) => kinematics.slope(q, t, { [name]: 1 }));
+  const places = Object.keys(along[0] ?? {});
+  return Object.fromEntries(places.map((place) => [place, along.map((slope) => slope[place])]));
+}
+
+/** @param {Record<string, number[][]>} slopes @param {readonly number[]} given  Qᵢ @param {number} multiplier @returns {Reaction[]} */
+function alone(slopes, given, multiplier) {
+  const size = Math.hypot(...given);
+  if (!(size > 0)) return [];
+  for (const [place, rows] of Object.entries(slopes)) {
+    const force = leastSquares(rows, given);
+    const left = Math.hypot(...rows.map((row, i) => dot(row, force) - given[i]));
+    const plain = Math.abs(Math.hypot(...force) - Math.abs(multiplier)) < 1e-3 * Math.abs(multiplier);
+    if (left < LEFT * size) return [{ place, force, plain }];
+  }
+  return [];
+}
+
+/** A rod pulls at those of its ends that can move. @param {Record<string, number[][]>} slopes @param {Snapshot} now @param {[string, string]} ends @param {number} pull @returns {Reaction[]} */
+function pulled(slopes, { positions }, [from, to], pull) {
+  if (!positions[from] || !positions[to]) return [];
+  const span = positions[to].map((x, c) => x - positions[from][c]);
+  const length = Math.hypot(...span);
+  return [
+    { place: to, force: span.map((x) => (-pull * x) / length), plain: true },
+    { place: from, force: span.map((x) => (pull * x) / length), plain: true },
+  ].filter(({ place }) => slopes[place]?.some((row) => Math.hypot(...row) > 0));
+}
+
+/**
+ * Where a constraint acts, and with which force in newtons; empty where no force at one place does its work.
+ * @param {Scene} scene @param {Kinematics} kinematics @param {Snapshot} now @param {Record<string, number>} multipliers @param {string} name
+ * @returns {Reaction[]}
+ */
+export function reactionOf(scene, kinematics, now, multipliers, name) {
+  const constraint = (scene.constraints ?? []).find((candidate) => candidate.name === name);
+  const found = kinematics.reactions(now, multipliers).find((one) => one.constraint === name);
+  if (!constraint || !found) return [];
+  const slopes = slopesOf(kinematics, now, kinematics.free);
+  const { from, to } = constraint;
+  if (from && to) return pulled(slopes, now, [from, to], found.multiplier);
+  return alone(
+    slopes,
+    kinematics.free.map((coordinate) => found.forces[coordinate] ?? 0),
+    found.multiplier,
+  );
+}
