@@ -27,7 +27,7 @@ FIRST = {
     "work-of-generalized-potential", "work-of-friction",
     "generalized-force",  # where nothing acts on the coordinate
     "virtual-work",  # where no load acts
-    "constraint", "left-out",
+    "constraint", "contact-gap", "left-out",
 }  # fmt: skip
 
 

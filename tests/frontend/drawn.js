@@ -83,6 +83,15 @@ function valuesOf({ coordinates, energy, multipliers }) {
   return { ...coordinates, ...energy, ...Object.fromEntries(reactions) };
 }
 
+/** Seconds around a jump in which two motions may be on either side of it. */
+const JUMP = 1e-9;
+
+/** The numbers of the samples that are not at a jump, whose time stands twice. */
+function apartFromJumps({ t: times }, { t }) {
+  const jumps = times.filter((at, i) => at === times[i + 1]);
+  return t.flatMap((at, i) => (jumps.some((jump) => Math.abs(at - jump) < JUMP) ? [] : [i]));
+}
+
 /** Curves over time, as they are handed to Plotly. */
 function ofPlots(scene, drawn, dense) {
   const rows = rowsOf(scene, drawn);
@@ -111,7 +120,7 @@ function ofPhase(scene, drawn, dense) {
     if (columns.length < 2 || rows.length < 2) return [];
     const [x, y] = [axisOf(columns), axisOf(rows)];
     const points = dense.t.map((_, i) => [x(dense.coordinates[name][i]), y(dense.rates[name][i])]);
-    const state = Math.max(...dense.t.map((t, i) => Math.hypot(where(t)[0] - points[i][0], where(t)[1] - points[i][1])));
+    const state = Math.max(...apartFromJumps(drawn, dense).map((i) => Math.hypot(...where(dense.t[i]).map((x, c) => x - points[i][c]))));
     return [[`phase ${name}`, departure(points, cornersOf(paths[0]))], [`state ${name}`, state]];
   });
 }
@@ -132,7 +141,7 @@ function ofDrawing(scene, drawn, dense) {
   const now = dense.t.map((t) => snapshotAt(drawn, t).positions);
   return Object.entries(dense.positions).flatMap(([name, path]) => {
     const points = path.map(stage.project);
-    const moving = Math.max(...points.map((point, i) => Math.hypot(...stage.project(now[i][name]).map((x, c) => x - point[c]))));
+    const moving = Math.max(...apartFromJumps(drawn, dense).map((i) => Math.hypot(...stage.project(now[i][name]).map((x, c) => x - points[i][c]))));
     const trail = trailOf(stage, name, 0, endOf(drawn));
     return [[`place ${name}`, moving], [`path ${name}`, departure(points, cornersOf(trail))]];
   });

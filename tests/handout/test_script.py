@@ -18,11 +18,18 @@ from deltaq.handout.service import export_request
 from deltaq.mechanics.library import load_scene, scene_ids
 from deltaq.mechanics.toml import read_toml
 from deltaq.mechanics.user_text import UserText
+from deltaq.mechanics.writing import write_scene
 from deltaq.simulation.service import run
 
 T_END = 2.0
 SCENES = Path(__file__).parents[1] / "simulation" / "scenes"
 AGREEMENT = 1e-6
+
+
+def document_of(name: str) -> dict[str, Any]:
+    """A built-in scene, or one of the simulation tests' own."""
+    own = SCENES / f"{name}.toml"
+    return read_toml(own.read_text(encoding="utf-8")) if own.is_file() else write_scene(load_scene(name))
 
 
 def executed(text: str, folder: Path) -> dict[str, Any]:
@@ -72,7 +79,7 @@ def test_program_of_a_scene_with_constraints_keeps_them(tmp_path: Path) -> None:
 @pytest.mark.parametrize("name", ["bouncing-ball", "braked-oscillator", "catching-pendulum", "stick-slip"])
 def test_program_goes_on_behind_impacts_and_sticking(name: str, tmp_path: Path) -> None:
     """It rebounds, rests, sticks and slips when δq's motion does."""
-    scene = read_toml((SCENES / f"{name}.toml").read_text(encoding="utf-8"))
+    scene = document_of(name)
     program = executed(str(export_request({"form": "python", "scene": scene, "t_end": T_END})["text"]), tmp_path)
     times, q, v = program["solve"]()
     request = {"scene": scene, "t_end": T_END, "samples": len(times), "tolerance": 1e-10}
@@ -181,7 +188,7 @@ def test_program_tells_what_holds_the_released(request_: dict[str, object], name
 
 
 def test_no_program_of_a_release_where_motions_jump() -> None:
-    scene = read_toml((SCENES / "catching-pendulum.toml").read_text(encoding="utf-8"))
+    scene = document_of("catching-pendulum")
     scene["parameters"] = [*scene["parameters"], {"name": "h", "unit": "m", "value": 0.1}]
     scene["bodies"][0]["position"][1] += " + h"
     with pytest.raises(RequestError) as caught:

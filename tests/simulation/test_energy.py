@@ -64,5 +64,9 @@ def test_the_balance_of_every_scene_stays(name: str) -> None:
     np.testing.assert_allclose(balance, balance[0], atol=1e-6 * scale)
     assert float(energy["drift"]) <= 1e-6 * scale
     fed = np.array(energy["kinetic"]) + np.array(energy["potential"]) - balance
-    power, rate = np.array(energy["power"])[1:-1], np.gradient(fed, answer["t"])[1:-1]
-    np.testing.assert_allclose(rate, power, atol=0.02 * np.abs(power).max() + 1e-3 * scale)
+    times, power = np.array(answer["t"]), np.array(energy["power"])
+    jumps = np.flatnonzero(times[1:] == times[:-1]) + 1  # what an impact takes is taken at once
+    for part in np.split(np.arange(len(times)), jumps):
+        if len(part) > 3:
+            rate = np.gradient(fed[part], times[part])[1:-1]
+            np.testing.assert_allclose(rate, power[part][1:-1], atol=0.02 * np.abs(power).max() + 1e-3 * scale)

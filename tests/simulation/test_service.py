@@ -39,19 +39,21 @@ def ask(**fields: object) -> dict[str, object]:
     return answer
 
 
-@pytest.mark.parametrize("scene", [name for name in scene_ids() if not load_scene(name).events])
+@pytest.mark.parametrize("scene", [name for name in scene_ids() if all(e.bounces for e in load_scene(name).events)])
 @pytest.mark.parametrize("accuracy", [{}, {"tolerance": 1e-9}, {"step": 0.01}], ids=["default", "tolerance", "step"])
 def test_every_scene_answers_in_full(scene: str, accuracy: dict[str, float]) -> None:
     answer = ask(scene=scene, **accuracy)
     assert set(answer) == FIELDS | (OF_CONSTRAINTS if load_scene(scene).constraints else set())
     assert (answer["status"], answer["event"]) == ("ok", None)
     assert answer["reason"] == {"code": "ok", "parameters": answer["reason"]["parameters"]}
-    assert len(answer["t"]) == 21
+    count = len(answer["t"])
+    regular = [t for t in answer["t"] if answer["t"].count(t) == 1]  # times of events stand twice
+    assert len(regular) == 21 - (answer["t"].count(0.0) > 1)
     assert answer["t"][-1] == 2.0
     for part in ("coordinates", "rates", "positions", "loads"):
-        assert all(len(values) == 21 for values in answer[part].values())
-    assert all(len(answer["energy"][key]) == 21 for key in ("kinetic", "potential", "power", "work", "balance"))
-    assert len(answer["error"]["estimate"]) == 21
+        assert all(len(values) == count for values in answer[part].values())
+    assert all(len(answer["energy"][key]) == count for key in ("kinetic", "potential", "power", "work", "balance"))
+    assert len(answer["error"]["estimate"]) == count
     assert set(answer["cost"]) >= {"steps", "rejected", "rhs_evaluations", "wall_time", "compile_time"}
 
 

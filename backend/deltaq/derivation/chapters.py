@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from .dissipation import dissipation_function
+from .impacts import bouncing, frictions, holding_force, impact
 from .multipliers import multipliers
 from .rules import (
     augmented_system,
@@ -12,17 +13,20 @@ from .rules import (
     constrained_variation,
     constraint,
     constraint_rates,
+    contact_gap,
     curl_test,
     decomposition,
     generalized_force,
     generalized_potential,
     guide,
     guided_position,
+    impact_law,
     lagrange_equation,
     multiplier,
     position,
     potential,
     rayleigh_function,
+    sticking_condition,
     total_differential,
     total_kinetic_energy,
     total_virtual_work,
@@ -126,3 +130,16 @@ def constraints(system: System) -> Iterator[Step]:
     found = multipliers(system)
     if found is not None:
         yield from (multiplier.apply(system, condition, found) for condition in system.conditions)
+
+
+def contact(system: System) -> Iterator[Step]:
+    """Impacts at contacts that close, and how long friction holds: what happens between stretches of the motion."""
+    for event in bouncing(system):
+        yield contact_gap.apply(system, event)
+        found = impact(system, event)
+        if found is not None:
+            yield impact_law.apply(system, event, found)
+    for load in frictions(system):
+        held = holding_force(system, load)
+        if held is not None:
+            yield sticking_condition.apply(system, load, held)

@@ -40,7 +40,7 @@ def multipliers(system: System) -> Multipliers | None:
     mass, rows = mass_matrix(system), system.constraint_matrix()
     if _length(mass, rows, forcing(system)) > MOST_GIVEN:
         return None
-    inverse = _inverse(system, mass)
+    inverse = inverse_of(system, mass)
     if inverse is None:
         return None
     loads = forcing(system) + rows.T * sp.Matrix(system.multipliers)
@@ -60,7 +60,8 @@ def _length(*matrices: sp.ImmutableMatrix) -> int:
     return sum(size(entry) for matrix in matrices for entry in matrix)
 
 
-def _inverse(system: System, mass: sp.ImmutableMatrix) -> sp.ImmutableMatrix | None:
+def inverse_of(system: System, mass: sp.ImmutableMatrix) -> sp.ImmutableMatrix | None:
+    """M⁻¹ by the adjugate, written to be read; None if M has none."""
     determinant = system.display(mass.det(method="berkowitz"))
     if determinant == 0:
         return None

@@ -17,7 +17,8 @@ from typing import Any, TypeAlias, cast
 from ..contract.assignment import Aspect
 from ..language.expression import Expression
 from ..language.rewriting import ZERO, Exchange, Shift, exchanged, expression_of, scaled
-from ..language.tree import Name, Negation, Node, Number, Product
+from ..language.tree import Name, Negation, Node, Number, Product, walk
+from ..mechanics.contributions import Friction
 from ..mechanics.coordinate import Coordinate
 from ..mechanics.drawing import SIZES, Drawing, Element
 from ..mechanics.parameter import Parameter
@@ -90,7 +91,14 @@ def _shown(scene: Scene, coordinate: str) -> list[Element]:
 def _may_shift(scene: Scene, coordinate: Coordinate) -> bool:
     """Whether the drawing shows from where the coordinate counts, and can show it from elsewhere."""
     elements = _shown(scene, coordinate.name)
-    return scene.dimension == 2 and bool(elements) and {one.kind for one in elements} <= COUNTED
+    sticks = coordinate.name in _sliding(scene)
+    return scene.dimension == 2 and not sticks and bool(elements) and {one.kind for one in elements} <= COUNTED
+
+
+def _sliding(scene: Scene) -> set[str]:
+    """The coordinates that friction acts on; a load names them, and they are counted in no other way."""
+    frictions = (part for part in scene.contributions if isinstance(part, Friction))
+    return {node.name for part in frictions for node in walk(part.coordinate) if isinstance(node, Name)}
 
 
 def _shift(scene: Scene, coordinate: Coordinate, source: random.Random) -> Shift:
@@ -105,7 +113,9 @@ def _shift(scene: Scene, coordinate: Coordinate, source: random.Random) -> Shift
 
 def _factors(scene: Scene, source: random.Random, most: int) -> tuple[tuple[str, Fraction], ...]:
     spoken = {name for expression in expressions(scene) for name in expression.names}
-    fitting = [p.name for p in scene.parameters if p.unit not in ("m/s^2", "rad") and p.name in spoken]
+    bounded = {name for event in scene.events if event.restitution for name in event.restitution.names}
+    names = [p.name for p in scene.parameters if p.unit not in ("m/s^2", "rad")]
+    fitting = [name for name in names if name in spoken - bounded]  # of what bounces back, no more than all does
     chosen = set(source.sample(fitting, min(most, len(fitting))))
     factors = {name: source.choice(FACTORS) for name in fitting}
     return tuple((name, factor) for name, factor in factors.items() if name in chosen)

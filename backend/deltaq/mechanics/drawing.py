@@ -31,6 +31,7 @@ ELEMENTS: dict[str, tuple[str, ...]] = {
     "polar": ("from", "to"),
     "rod": ("from", "to"),
     "spring": ("from", "to"),
+    "string": ("from", "to"),
     "top": ("from", "to"),
     "trail": ("at",),
     "wall": ("from", "to"),

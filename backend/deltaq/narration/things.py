@@ -14,8 +14,11 @@ NAMELESS = re.compile(r"([a-z]+(?:_[a-z]+)*)-?(\d*)")
 
 
 def called(scene: Scene, name: str, language: str) -> CatalogText:
-    """The label in this language, else the word for the kind of what has no name of its own, else the name."""
-    label = scene.labels.get(name, {}).get(language)
+    """The label in this language, or what happens at an event, else the word for the kind of what has no name, else
+    the name.
+    """
+    happens = {event.name: event.title for event in scene.events}
+    label = scene.labels.get(name, happens.get(name, {})).get(language)
     match = NAMELESS.fullmatch(name)
     kinds = catalog(language)["page"]
     word = kinds.get(f"kinds.{match[1].replace('_', '-')}") if match and isinstance(kinds, Mapping) else None

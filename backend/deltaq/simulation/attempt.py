@@ -25,6 +25,7 @@ from .transitions import begun
 
 TRIES = 6
 ROUNDS = 4  # of shorter steps where a run was blind
+BY_EVENTS = 0.5  # of the difference, where a motion goes on behind events
 BRIEF = 5_000  # right-hand sides; fewer take less time than a second thread needs to begin
 
 
@@ -168,10 +169,19 @@ class Integrator:
             of_fine = replace(fine, pieces=self.refinement.of_fine(pieces), is_recorded=True)
             of_coarse = replace(coarse, pieces=pieces)
             runs = self._both(of_coarse, of_fine) if known is None else (known, self._finer(of_fine))
-            factor, answer = self.refinement.factor_of_answer(runs[0].steps, runs[-1].steps), self.refinement.answer
+            factor, answer = self._factor(*runs), self.refinement.answer
             return Attempt(runs[answer], runs, estimate(self.judge, *runs, factor), is_shared=known is not None)
 
         return self._seen(pieces, compared)
+
+    def _factor(self, coarse: Run, fine: Run) -> float:
+        """What the difference of a pair is multiplied by to estimate the error of the answer.
+
+        Stretches between events have few steps, the first of which is guessed, and errors where events are found fall
+        less fast than a tolerance.
+        """
+        factor = self.refinement.factor_of_answer(coarse.steps, fine.steps)
+        return factor if self.modes is None else max(factor, BY_EVENTS)
 
     def _blind(self, fine: Run, tolerance: float) -> tuple[Stretch, ...]:
         """Where a run was blind, stretch by stretch in its mode if it went on behind events."""
@@ -252,7 +262,7 @@ class Integrator:
         if not 1.0 < short < np.inf:
             return found
         coarse, fine = found.runs
-        factor = short * self.refinement.factor_of_answer(coarse.steps, fine.steps)
+        factor = short * self._factor(coarse, fine)
         return replace(found, estimate=estimate(self.judge, coarse, fine, factor))
 
 

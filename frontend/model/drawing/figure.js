@@ -5,7 +5,7 @@ import { circle } from "./geometry.js";
 import { coordinate, unshown } from "./coordinates.js";
 import { homesOf } from "./homes.js";
 import { ground, guide, pivot, wall, wire } from "./supports.js";
-import { bob, cart, damper, disc, hoop, rod, spring } from "./members.js";
+import { bob, cart, damper, disc, hoop, rod, spring, string } from "./members.js";
 import { angle, dimension, force, moment, weight } from "./marks.js";
 import { sketchOf, verticalOf } from "./sketch.js";
 import { azimuth, polar, top, wheel } from "./space.js";
@@ -33,6 +33,7 @@ export const KINDS = {
   wheel,
   top,
   rod,
+  string,
   cart,
   block: cart,
   disc,

@@ -10,7 +10,7 @@ import { parameterClass } from "../symbols.js";
 
 const NAME = /[A-Za-z_]\w*/g;
 /** Elements that show a body, in whose position, mass or moments of inertia a symbol stands. */
-const BODIES = /^(bob|disc|hoop|block|cart|top|wheel|rod|spring)$/;
+const BODIES = /^(bob|disc|hoop|block|cart|top|wheel|rod|string|spring)$/;
 
 /** Members of a load that are no expressions. */
 const NAMES = new Set(["name", "kind", "at", "from", "to", "latex", "coordinate"]);
@@ -119,7 +119,7 @@ function bodiesOf(scene, elements, moved) {
   const of = (/** @type {Set<string>} */ names) => coordinates.filter((name) => names.has(name));
   const found = elements.map(() => /** @type {string[]} */ ([]));
   const shown = new Set(
-    elements.filter(({ kind }) => kind !== "rod" && BODIES.test(kind)).flatMap(({ at, to }) => [at, to]),
+    elements.filter(({ kind }) => !/^(rod|string)$/.test(kind) && BODIES.test(kind)).flatMap(({ at, to }) => [at, to]),
   );
   for (const { name, angle, position } of scene.bodies.filter((body) => !shown.has(body.name))) {
     const own = of(new Set([...behind(scene, name), ...namesIn([angle, position].filter(Boolean))]));

@@ -1,4 +1,4 @@
-/** What a system is made of: rod, spring, bob, cart, block, disc, hoop. */
+/** What a system is made of: rod, string, spring, bob, cart, block, disc, hoop. */
 
 import { add, circle, coil, lengthOf, line, normal, polygon, polyline, scaled, subtract, unit } from "./geometry.js";
 import { boxAbout } from "./placing.js";
@@ -18,6 +18,45 @@ export function rod(element, stage, now, key) {
     labels: named(element.label, stage, [from, to], key, 1.1 * stage.unit, outside(stage, key, from, to)),
   };
 }
+
+/** Chords of a slack string, halvings that find how deep it hangs, and how much shorter than itself it is seen to be slack. */
+const CHORDS = 24;
+const HALVINGS = 24;
+const TAUT = 1e-3;
+
+/**
+ * A string, as long as its label says: straight where it is taut, else a parabola of its length that hangs down.
+ * @param {Element} element @param {Stage} stage @param {Snapshot} now @param {string} key @returns {Figure}
+ */
+export function string(element, stage, now, key) {
+  const [from, to] = [placeOf(stage, now, element.from ?? ""), placeOf(stage, now, element.to ?? "")];
+  const length = sizeOf(element.label, stage) * stage.scale;
+  const isSlack = length * (1 - TAUT) > lengthOf(subtract(to, from));
+  const points = isSlack ? hanging(from, to, length, stage.down) : [from, to];
+  return {
+    shapes: [{ key, d: polyline(points), className: marked("ink rod", element), strips: chordsOf(points) }],
+    labels: named(element.label, stage, [from, to], key, 1.1 * stage.unit, outside(stage, key, from, to)),
+  };
+}
+
+/** @param {Pixel} from @param {Pixel} to @param {number} length @param {Pixel} down @returns {Pixel[]} */
+function hanging(from, to, length, down) {
+  const curve = (/** @type {number} */ depth) =>
+    Array.from({ length: CHORDS + 1 }, (_, i) => {
+      const part = i / CHORDS;
+      return add(add(from, scaled(subtract(to, from), part)), scaled(down, 4 * depth * part * (1 - part)));
+    });
+  let [shallow, deep] = [0, length];
+  for (let n = 0; n < HALVINGS; n += 1) {
+    const middle = (shallow + deep) / 2;
+    const reach = chordsOf(curve(middle)).reduce((sum, [a, b]) => sum + lengthOf(subtract(b, a)), 0);
+    [shallow, deep] = reach < length ? [middle, deep] : [shallow, middle];
+  }
+  return curve(deep);
+}
+
+/** @param {Pixel[]} points @returns {[Pixel, Pixel][]} */
+const chordsOf = (points) => points.slice(1).map((point, i) => [points[i], point]);
 
 /** Where along an element its letter stands: not in the middle, where that of its angle is. */
 const ALONG = 0.7;

@@ -20,7 +20,7 @@ import { arrow } from "../drawing/marks.js";
  */
 
 /** Only what moves has a ghost; what is written into a drawing has none. */
-const MEMBERS = /^(rod|spring|damper|bob|cart|block|disc|hoop|pivot|guide)(?!\d*-(hatch|rail|triangle))/;
+const MEMBERS = /^(rod|string|spring|damper|bob|cart|block|disc|hoop|pivot|guide)(?!\d*-(hatch|rail|triangle))/;
 /** Where there are more parts than this, only the arrows of the body that has the most of them have letters. */
 const LETTERED = 8;
 /** Arrows below this many units are too short for a head. */

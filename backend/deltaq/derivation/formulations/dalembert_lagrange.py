@@ -43,6 +43,7 @@ CHAPTERS: Mapping[str, Callable[[System], Iterator[Step]]] = MappingProxyType(
         "decomposition": chapters.forces,
         "lagrange": _lagrange,
         "constraints": chapters.constraints,
+        "contact": chapters.contact,
         "model": model,
     }
 )

@@ -56,6 +56,7 @@ CHAPTERS: Mapping[str, Callable[[System], Iterator[Step]]] = MappingProxyType(
         "hamilton": _hamilton,
         "lagrange": chapters.equations,
         "constraints": chapters.constraints,
+        "contact": chapters.contact,
         "model": model,
     }
 )
