@@ -112,3 +112,27 @@ def test_wrapped_angles_and_axes_are_chosen_in_the_menu(lecture: Lecture) -> Non
     page.keyboard.press("Escape")
     expect(page.locator(".plot-menu .sheet")).to_be_hidden()
     expect(page.locator(".plot-menu summary")).to_be_focused()
+
+
+@pytest.mark.parametrize("scene", ["double-pendulum", "four-bar"])
+def test_names_of_curves_keep_off_each_other_on_a_phone(lecture: Lecture, scene: str) -> None:
+    """Above each row its names in one line: none on another, on the menu or out of the page; all can be scrolled to."""
+    lecture.page.set_viewport_size({"width": 360, "height": 780})
+    page = lecture.page
+    page.goto(f"{lecture.address}scene?scene={scene}&lang=de&panel=plots")
+    page.locator(".plots.ready .reading").first.wait_for(state="attached")
+    legends = page.locator(".plots .legend").filter(visible=True)
+    menu = page.locator(".plot-menu summary").bounding_box()
+    assert menu is not None
+    for legend in legends.all():
+        box = legend.bounding_box()
+        assert box is not None
+        assert box["x"] + box["width"] <= (menu["x"] if box["y"] < menu["y"] + menu["height"] else 360)
+        names = [one.bounding_box() for one in legend.locator("> *").filter(visible=True).all()]
+        ends = [(name["x"], name["x"] + name["width"]) for name in names if name]
+        assert len(ends) > 1
+        assert all(end <= start + 0.5 for (_, end), (start, _) in zip(ends, ends[1:], strict=False)), ends
+        legend.evaluate("one => { one.scrollLeft = one.scrollWidth; }")
+        last = legend.locator("> *").filter(visible=True).last.bounding_box()
+        assert last is not None
+        assert last["x"] + last["width"] <= box["x"] + box["width"] + 1

@@ -42,8 +42,13 @@ for (const [acceleration, vertical, down] of /** @type {const} */ ([["g", "down"
 
 test("a view that the motion leaves is widened about its centre, and not without end", () => {
   const far = (/** @type {number} */ x) => ({ ...trajectory, positions: { bob: [[x, 0]] } });
-  assert.deepEqual(viewOf(scene, far(1.9)), [-2, 2, -2, 2]);
-  assert.deepEqual(viewOf(scene, far(2.4)), [-2.5, 2.5, -2.5, 2.5]);
+  assert.deepEqual(viewOf(scene, far(1.8)), [-2, 2, -2, 2]);
+  assert.deepEqual(viewOf(scene, far(1.97)), [-2.5, 2.5, -2.5, 2.5], "a body has a size");
+  assert.deepEqual(viewOf(scene, far(2.3)), [-2.5, 2.5, -2.5, 2.5]);
+  const swung = { ...trajectory, positions: { bob: Array.from({ length: 20 }, (_, i) => [i ? 0 : 2.8, 0]) } };
+  assert.ok(viewOf(scene, swung)[1] > 2.8, "what comes there for a moment is seen as well where that is cheap");
+  const ran = { ...trajectory, positions: { bob: Array.from({ length: 20 }, (_, i) => [i ? 0 : 50, 0]) } };
+  assert.deepEqual(viewOf(scene, ran), [-2, 2, -2, 2]);
   assert.ok(viewOf(scene, far(1e9))[1] < 20);
   assert.ok(viewOf(scene, far(NaN)).every(Number.isFinite));
 });

@@ -27,9 +27,12 @@ import { FRONT, viewBy } from "./camera.js";
 
 /** Growth of the shown part when the motion leaves it, in steps so that it does not creep while a slider moves. */
 const GROWTH = 1.25;
-/** A runaway motion must not shrink the scene to a dot: this part of the samples is to be seen, and not at any price. */
+/** A runaway motion must not shrink the scene to a dot: all of it is seen where that takes few steps, else this part of the samples, and not at any price. */
 const SEEN = 0.9;
-const MOST_GROWTH = GROWTH ** 8;
+const CHEAP = 2;
+const STEPS = 8;
+/** Bodies have a size: part of the smaller side that they take about their place. */
+const BODY = 0.035;
 
 /** @param {Scene} scene */
 const growsUp = (scene) => scene.drawing?.vertical === "up";
@@ -66,23 +69,26 @@ function padded([x0, x1, y0, y1]) {
   return [x0 - margin, x1 + margin, y0 - margin, y1 + margin];
 }
 
-/** @param {Box} box @param {Pixel} point */
-function holds([x0, x1, y0, y1], [x, y]) {
-  return x >= x0 && x <= x1 && y >= y0 && y <= y1;
+/** @param {Box} box @param {Pixel} point @param {number} margin */
+function holds([x0, x1, y0, y1], [x, y], margin) {
+  return x >= x0 + margin && x <= x1 - margin && y >= y0 + margin && y <= y1 - margin;
+}
+
+/** @param {Box} own @param {number} growth about its centre @returns {Box} */
+function grown([x0, x1, y0, y1], growth) {
+  const [x, y, w, h] = [(x0 + x1) / 2, (y0 + y1) / 2, ((x1 - x0) / 2) * growth, ((y1 - y0) / 2) * growth];
+  return [x - w, x + w, y - h, y + h];
 }
 
 /** @param {Box} own @param {readonly Pixel[][]} paths @returns {Box} */
 function widened(own, paths) {
-  let box = own;
-  const centre = [(own[0] + own[1]) / 2, (own[2] + own[3]) / 2];
-  const half = [(own[1] - own[0]) / 2, (own[3] - own[2]) / 2];
-  for (let growth = 1; growth <= MOST_GROWTH; growth *= GROWTH) {
-    const [w, h] = half.map((side) => side * growth);
-    box = [centre[0] - w, centre[0] + w, centre[1] - h, centre[1] + h];
-    const shown = box;
-    if (paths.every((path) => path.filter((point) => holds(shown, point)).length >= SEEN * path.length)) break;
-  }
-  return box;
+  const steps = Array.from({ length: STEPS + 1 }, (_, i) => grown(own, GROWTH ** i));
+  const isSeen = (/** @type {Box} */ box, /** @type {number} */ part) => {
+    const margin = BODY * Math.min(box[1] - box[0], box[3] - box[2]);
+    return paths.every((path) => path.filter((point) => holds(box, point, margin)).length >= part * path.length);
+  };
+  const all = steps.slice(0, CHEAP + 1).find((box) => isSeen(box, 1));
+  return all ?? steps.find((box) => isSeen(box, SEEN)) ?? steps[STEPS];
 }
 
 /**

@@ -108,6 +108,8 @@ export function createVirtual(bench) {
  */
 function panel({ state, session, t }, free, { delta, dt }, { choose, follow, loads }) {
   const { lang } = state.place;
+  // Parts of δr have their letters here, since in the drawing there may be no room for them.
+  const varied = free.filter(({ name }) => delta[name]);
   const index = (/** @type {string} */ name) => state.scene?.coordinates.findIndex((each) => each.name === name);
   return html`
     <section class="values virtual-panel" aria-label=${t("virtual")}>
@@ -131,6 +133,7 @@ function panel({ state, session, t }, free, { delta, dt }, { choose, follow, loa
       ${row({ className: "time-term", key: "dt", latex: "\\mathrm dt", unit: "s", label: t("virtual.dt"), value: dt, reach: LONGEST, least: 0, set: (value) => choose({ delta, dt: value }) })}
       <ul class="arrows">
         <li><span class="swatch virtual"></span>${inline("\\delta\\mathbf r")}<span>${t("virtual.variation")}</span></li>
+        ${varied.length > 1 ? varied.map(({ name, latex }) => html`<li class=${`q-${index(name)}`}><span class="swatch"></span>${inline(`\\tfrac{\\partial\\mathbf r}{\\partial ${latex || name}}\\,\\delta ${latex || name}`)}<span>${t("virtual.part")}</span></li>`) : ""}
         ${
           dt
             ? html`<li><span class="swatch actual"></span>${inline("\\mathrm d\\mathbf r")}<span>${t("virtual.differential")}</span></li>
