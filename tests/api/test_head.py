@@ -40,7 +40,7 @@ def asked(service: str, method: str, address: str) -> tuple[int, dict[str, str],
     return answer.status, {name: value for name, value in fields.items() if name not in CHANGING}, body
 
 
-@pytest.mark.one_in(2)
+@pytest.mark.one_in(3)
 @pytest.mark.parametrize("address", [*addresses(), "/", "/scene", "/no-such-page", "/api/v1/scenes/no-such-scene"])
 def test_head_is_get_without_a_body(service: str, address: str) -> None:
     status, fields, _ = asked(service, "GET", address)

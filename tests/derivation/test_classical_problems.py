@@ -147,6 +147,7 @@ def test_the_menu_has_all_of_them() -> None:
     assert len(KNOWN) == 12
 
 
+@pytest.mark.one_in(3)
 @pytest.mark.parametrize("name", menu()["asked"])
 def test_every_step_of_every_example_is_verified(name: str) -> None:
     steps = [s for chapter in answer(name)["chapters"] for step in chapter["steps"] for s in walk(step)]

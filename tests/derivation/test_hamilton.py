@@ -30,6 +30,7 @@ def derived(request: pytest.FixtureRequest) -> dict[str, tuple[System, Derivatio
     }
 
 
+@pytest.mark.one_in(4)
 def test_it_leads_to_the_same_equations(derived: dict[str, tuple[System, Derivation]]) -> None:
     for _, derivation in derived.values():
         assert [step.id for step in derivation.steps() if not step.verified] == []
@@ -37,6 +38,7 @@ def test_it_leads_to_the_same_equations(derived: dict[str, tuple[System, Derivat
     assert dataclasses.replace(by_action, scene=by_work.scene) == by_work
 
 
+@pytest.mark.one_in(4)
 def test_the_factor_of_each_variation_is_the_equation_of_motion(
     derived: dict[str, tuple[System, Derivation]],
 ) -> None:

@@ -145,7 +145,7 @@ def restitutions(scene: Scene) -> set[str]:
     return {name for event in scene.events if event.restitution for name in event.restitution.names}
 
 
-@pytest.mark.one_in(2)
+@pytest.mark.one_in(3)
 @pytest.mark.parametrize("identifier", scene_ids())
 def test_as_many_modes_as_coordinates_at_any_value(identifier: str) -> None:
     """Wherever M, K are symmetric, M is regular and no rate enters: K − ω²M is small there by rounding alone."""

@@ -23,7 +23,7 @@ HELD = [
 ]
 
 
-@pytest.mark.one_in(3)
+@pytest.mark.one_in(5)
 @pytest.mark.parametrize(("scene", "name"), HELD)
 def test_every_step_holds_exactly(scene: str, name: str) -> None:
     chapter = reactions(Release.of(System(load_scene(scene)), name))

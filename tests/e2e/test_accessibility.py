@@ -206,7 +206,7 @@ def by_turns(places: list[Any]) -> list[Any]:
     return [pytest.param(*place.values, lang, id=place.id) for place, lang in zip(places, languages, strict=False)]
 
 
-@pytest.mark.one_in(3)
+@pytest.mark.one_in(5)
 @pytest.mark.parametrize(("place", "ready", "first", "language"), by_turns(PLACES))
 def test_page(
     lecture: Lecture,

@@ -29,7 +29,7 @@ function serverOf(motion, more = {}) {
 
 /** The largest error of what is drawn, in pixels of a projector, as parts of the ranges. @param {any} motion @param {(t: number) => [number, number]} truth */
 function pixelsOff(motion, truth) {
-  const times = Array.from({ length: 20011 }, (_, i) => (END * i) / 20010);
+  const times = Array.from({ length: 5003 }, (_, i) => (END * i) / 5002);
   const [x, v] = [motion.coordinates.x, motion.rates.x].map((values) => Math.max(...values) - Math.min(...values));
   return 800 * Math.max(...times.map((t) => {
     const { coordinates, rates } = snapshotAt(motion, t);

@@ -5,11 +5,14 @@ from __future__ import annotations
 import pytest
 from tests.homework.wrong_answers import LONG, assert_hints_are_whole, assert_mistakes_are_found
 
+PARTS = 4  # of the wrong answers of a scene
 
-@pytest.mark.one_in(4)
+
+@pytest.mark.one_in(7)
+@pytest.mark.parametrize("part", range(PARTS))
 @pytest.mark.parametrize("scene", LONG)
-def test_wrong_answers_are_wrong_and_their_mistakes_found(scene: str) -> None:
-    assert_mistakes_are_found(scene)
+def test_wrong_answers_are_wrong_and_their_mistakes_found(scene: str, part: int) -> None:
+    assert_mistakes_are_found(scene, part, PARTS)
 
 
 @pytest.mark.parametrize("scene", LONG)

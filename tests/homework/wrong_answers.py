@@ -27,13 +27,13 @@ def typed(parts: tuple, form: str) -> str:
     return f"[{', '.join(texts)}]" if form == "vector" else "; ".join(texts)
 
 
-def found_again(workbook: Workbook) -> tuple[int, list[str]]:
+def found_again(workbook: Workbook, part: int, parts: int) -> tuple[int, list[str]]:
     """How many wrong answers there are, and which are not explained: by the mistake they came from, or, where that
     left no more than any slip leaves, by the terms that are wrong.
     """
-    missed, count = [], 0
+    missed, count, every = [], 0, EVERY * parts
     for number, task in enumerate(workbook.tasks):
-        for candidate in workbook.candidates(task)[number % EVERY :: EVERY]:
+        for candidate in workbook.candidates(task)[(number + EVERY * part) % every :: every]:
             text = typed(candidate.parts, task.quantity.form)
             if len(text) > 1000:
                 continue
@@ -47,10 +47,10 @@ def found_again(workbook: Workbook) -> tuple[int, list[str]]:
     return count, missed
 
 
-def assert_mistakes_are_found(scene: str) -> None:
-    """Every wrong answer is wrong, and nearly each names the mistake it came from."""
-    count, missed = found_again(workbook_of({"scene": scene}))
-    assert count > 20 / EVERY
+def assert_mistakes_are_found(scene: str, part: int = 0, parts: int = 1) -> None:
+    """Every wrong answer of one part of so many is wrong, and nearly each names the mistake it came from."""
+    count, missed = found_again(workbook_of({"scene": scene}), part, parts)
+    assert count > 20 / (EVERY * parts)
     assert len(missed) <= 0.03 * count, missed
 
 

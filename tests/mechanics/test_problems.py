@@ -67,7 +67,7 @@ def test_a_problem_is_described(row: dict[str, Any]) -> None:
     assert [problem for problem in problems if problem.severity == "error"] == []
 
 
-@pytest.mark.one_in(6)
+@pytest.mark.one_in(9)
 @pytest.mark.parametrize("row", DESCRIBED)
 def test_a_problem_is_derived(row: dict[str, Any]) -> None:
     scene, _ = examine(document(row))

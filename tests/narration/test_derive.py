@@ -58,7 +58,7 @@ def told(scene: str, formulation: str) -> dict[str, Any]:
     return derived.told(scene, LANGUAGE[formulation], formulation)
 
 
-@pytest.mark.one_in(3)
+@pytest.mark.one_in(6)
 @pytest.mark.parametrize("formulation", formulation_names())
 @pytest.mark.parametrize("scene", scene_ids())
 def test_every_scene_is_told(scene: str, formulation: str) -> None:
@@ -98,7 +98,7 @@ def leaves(part: object) -> Iterator[str]:
         yield part
 
 
-@pytest.mark.one_in(4)
+@pytest.mark.one_in(8)
 @pytest.mark.parametrize("formulation", formulation_names())
 @pytest.mark.parametrize("scene", scene_ids())
 def test_plain_texts_are_read_back_by_the_parser(scene: str, formulation: str) -> None:
@@ -178,7 +178,7 @@ def test_under_constant_forces_it_is_not_the_momentum_that_is_conserved(scene: s
     assert own in texts[step]
 
 
-@pytest.mark.one_in(4)
+@pytest.mark.one_in(8)
 @pytest.mark.parametrize("language", ["de", "en"])
 @pytest.mark.parametrize("scene", scene_ids())
 def test_titles_of_a_chapter_tell_its_steps_apart(scene: str, language: str) -> None:
