@@ -16,7 +16,7 @@ from tests.serving import PATIENT, shared
 from xdist.remote import Producer
 from xdist.scheduler import LoadFileScheduling
 
-from deltaq.api.workers.kernels import are_compiled, folder
+from deltaq.api.workers.kernels import are_compiled
 
 ROOT = Path(__file__).parents[1]
 
@@ -30,11 +30,8 @@ def root() -> Path:
 @pytest.fixture(scope="session")
 def kernels() -> None:
     """All kernels are compiled, by one process for all workers of the run and for the services that they start."""
-    folder().mkdir(parents=True, exist_ok=True)
-    with (folder() / "compiling.lock").open("w") as lock:
-        fcntl.flock(lock, fcntl.LOCK_EX)
-        if not are_compiled():
-            subprocess.run([sys.executable, "-m", "deltaq.cli", "compile"], check=True, stdout=subprocess.DEVNULL)
+    if not are_compiled():
+        subprocess.run([sys.executable, "-m", "deltaq.cli", "compile"], check=True, stdout=subprocess.DEVNULL)
 
 
 @pytest.fixture(scope="session")

@@ -15,12 +15,19 @@ def arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def run(_options: argparse.Namespace) -> None:
-    """Each family of methods, then what only the lab needs."""
-    from ..api.workers.kernels import are_compiled, mark_as_compiled
+    """Compile what is not compiled yet, when no other process does."""
+    from ..api.workers.kernels import are_compiled, compiling
 
-    if are_compiled():
-        print("all kernels are there")
-        return
+    with compiling():
+        if are_compiled():
+            print("all kernels are there")
+        else:
+            _compile()
+
+
+def _compile() -> None:
+    """Each family of methods, then what only the lab needs."""
+    from ..api.workers.kernels import mark_as_compiled
     from ..lab import divergence, monodromy
     from ..simulation.library import families
     from ..simulation.service import warm

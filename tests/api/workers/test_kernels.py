@@ -1,12 +1,13 @@
 from __future__ import annotations
 
 import os
+import threading
 from pathlib import Path
 
 import pytest
 
 from deltaq.api.workers import kernels
-from deltaq.api.workers.kernels import are_compiled, compiled_kernels, mark_as_compiled
+from deltaq.api.workers.kernels import are_compiled, compiled_kernels, compiling, mark_as_compiled
 
 
 @pytest.mark.parametrize(
@@ -62,3 +63,28 @@ def test_kernels_of_another_processor_do_not_count(tmp_path: Path, monkeypatch: 
     assert not are_compiled()
     mark_as_compiled()
     assert are_compiled()
+
+
+def test_one_process_compiles_and_the_others_wait(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("NUMBA_CACHE_DIR", str(tmp_path))
+    told: list[str] = []
+
+    def other() -> None:
+        with compiling():
+            told.append("kernels are there" if are_compiled() else "nothing is there")
+
+    with compiling():
+        second = threading.Thread(target=other)
+        second.start()
+        second.join(0.2)
+        assert told == []
+        mark_as_compiled()
+    second.join()
+    assert told == ["kernels are there"]
+
+
+def test_nobody_waits_where_nothing_can_be_kept(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    (tmp_path / "file").touch()
+    monkeypatch.setenv("NUMBA_CACHE_DIR", str(tmp_path / "file" / "folder"))
+    with compiling(), compiling():
+        assert not are_compiled()

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import fcntl
 import hashlib
 import os
 import platform
-from contextlib import suppress
+from collections.abc import Iterator
+from contextlib import contextmanager, suppress
 from pathlib import Path
 from tempfile import mkdtemp
 
@@ -57,6 +59,23 @@ def mark_as_compiled() -> None:
     with suppress(OSError):
         folder().mkdir(parents=True, exist_ok=True)
         _mark().touch()
+
+
+@contextmanager
+def compiling() -> Iterator[None]:
+    """Held by one process at a time: who comes later waits, and finds compiled what the first has compiled.
+
+    Where nothing can be kept each process compiles for itself, and nobody waits.
+    """
+    try:
+        folder().mkdir(parents=True, exist_ok=True)
+        lock = (folder() / "compiling.lock").open("w")
+    except OSError:
+        yield
+        return
+    with lock:
+        fcntl.flock(lock, fcntl.LOCK_EX)
+        yield
 
 
 def are_compiled() -> bool:
