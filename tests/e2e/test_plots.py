@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from itertools import pairwise
 
 import pytest
 from playwright.sync_api import Page, expect
@@ -131,7 +132,7 @@ def test_names_of_curves_keep_off_each_other_on_a_phone(lecture: Lecture, scene:
         names = [one.bounding_box() for one in legend.locator("> *").filter(visible=True).all()]
         ends = [(name["x"], name["x"] + name["width"]) for name in names if name]
         assert len(ends) > 1
-        assert all(end <= start + 0.5 for (_, end), (start, _) in zip(ends, ends[1:], strict=False)), ends
+        assert all(end <= start + 0.5 for (_, end), (start, _) in pairwise(ends)), ends
         legend.evaluate("one => { one.scrollLeft = one.scrollWidth; }")
         last = legend.locator("> *").filter(visible=True).last.bounding_box()
         assert last is not None
