@@ -1734,6 +1734,21 @@ export interface components {
             forces: components["schemas"]["CoordinateFormula"][];
         };
         /**
+         * ContactResult
+         * @description A contact that closes where its gap g(q, t) falls to zero.
+         */
+        ContactResult: {
+            /**
+             * Name
+             * @example impact
+             */
+            name: string;
+            gap: components["schemas"]["Formula"];
+            restitution: components["schemas"]["Formula"];
+            /** @description null where it would be too long, or constraints share the impulse */
+            impact: components["schemas"]["ImpactResult"] | null;
+        };
+        /**
          * ConvergenceAnswer
          * @description Errors over steps, and the orders that they show.
          */
@@ -2200,6 +2215,16 @@ export interface components {
              * @default []
              */
             constraints: components["schemas"]["ConstraintResult"][];
+            /**
+             * Contacts
+             * @default []
+             */
+            contacts: components["schemas"]["ContactResult"][];
+            /**
+             * Sticking
+             * @default []
+             */
+            sticking: components["schemas"]["StickingResult"][];
             /**
              * Reactions
              * @description of what the request released
@@ -3846,6 +3871,26 @@ export interface components {
             version: string;
             workers: components["schemas"]["WorkerHealth"];
             cache: components["schemas"]["CacheHealth"];
+        };
+        /**
+         * ImpactResult
+         * @description What an impact does: the momenta jump by Λ ∂g/∂q, such that ġ⁺ = −e ġ⁻. Rates are those before it.
+         */
+        ImpactResult: {
+            /** @description Λ */
+            impulse: components["schemas"]["Formula"];
+            /**
+             * Momentum Jumps
+             * @description Λ ∂g/∂q of each coordinate that changes the gap
+             */
+            momentum_jumps: components["schemas"]["CoordinateFormula"][];
+            /**
+             * Rate Jumps
+             * @description q̇ behind the impact less q̇ before it
+             */
+            rate_jumps: components["schemas"]["CoordinateFormula"][];
+            /** @description E before less E behind; negative where a moving contact feeds energy in */
+            energy_loss: components["schemas"]["Formula"];
         };
         /**
          * Inequality
@@ -7006,6 +7051,19 @@ export interface components {
             cancelled: string[];
             /** Substeps */
             substeps: components["schemas"]["Step"][];
+        };
+        /**
+         * StickingResult
+         * @description Dry friction that sticks as long as the magnitude of what holds is no more than the largest holding force.
+         */
+        StickingResult: {
+            /**
+             * Load
+             * @example friction
+             */
+            load: string;
+            holding: components["schemas"]["Formula"];
+            largest: components["schemas"]["Formula"];
         };
         /**
          * StiffRun

@@ -68,6 +68,8 @@ async def test_every_scene_is_derived(client: httpx.AsyncClient, scene: str, lan
         "constraints",
         "reactions",
         "releasable",
+        "contacts",
+        "sticking",
     }
 
 

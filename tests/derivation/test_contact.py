@@ -10,9 +10,11 @@ import sympy as sp
 
 from deltaq.derivation.engine import derive
 from deltaq.derivation.formula import Named
+from deltaq.derivation.linearization import linearizations
 from deltaq.derivation.step import Derivation
 from deltaq.derivation.system import System
 from deltaq.mechanics.document import read_scene
+from deltaq.narration.derive import derive_request
 
 
 def derived(document: Mapping[str, Any]) -> tuple[System, Derivation]:
@@ -111,6 +113,34 @@ def test_a_belt_that_speeds_up_takes_its_block_along() -> None:
     system, derivation = derived(on_line([friction]))
     held = quantities(derivation, "sticking-condition")["holding-force", "belt"]
     assert sp.simplify(held - 2 * system.q("m") * system.q("u") * system.t) == 0
+
+
+def test_results_tell_contacts_and_what_holds() -> None:
+    """As plain expressions, for programs."""
+    ball, belt = (derive_request({"scene": name, "lang": "en"})["result"] for name in ("bouncing-ball", "stick-slip"))
+    (contact,) = ball["contacts"]
+    assert contact["gap"]["plain"] == "z - a*sin(omega*t)"
+    assert contact["restitution"]["plain"] == "e"
+    assert [(each["coordinate"], each["plain"]) for each in contact["impact"]["rate_jumps"]] == [
+        ("z", "-(e + 1)*(dot(z) - a*omega*cos(omega*t))")
+    ]
+    assert (ball["sticking"], belt["contacts"]) == ([], [])
+    assert [(each["load"], each["holding"]["plain"], each["largest"]["plain"]) for each in belt["sticking"]] == [
+        ("friction", "k*x", "m*g*mu_s")
+    ]
+
+
+def test_a_belt_whose_speed_may_be_zero_is_linearized_where_it_is_not() -> None:
+    """The slope of sgn(ẋ − u) is 2δ(ẋ − u), which is zero beside the jump and stands in no formula."""
+    friction = {"kind": "friction", "name": "belt", "coordinate": "x", "force": "F*(1 + dot(x)^2)", "surface_rate": "u"}
+    document = on_line([friction, {"kind": "potential", "name": "spring", "energy": "k*(x^2 + y^2)/2"}])
+    for parameter in document["parameters"]:
+        parameter["positive"] = False
+    system, derivation = derived(document)
+    assert [step.rule for step in derivation.steps()].count("linearization") == 1
+    matrices = [m for each in linearizations(system) for m in (each.mass, each.damping, each.stiffness)]
+    assert matrices
+    assert not any(matrix.has(sp.DiracDelta) for matrix in matrices)
 
 
 def test_a_wrong_impulse_is_not_verified(monkeypatch: pytest.MonkeyPatch) -> None:

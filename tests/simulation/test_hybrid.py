@@ -10,6 +10,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from scipy.integrate import solve_ivp
 
 from deltaq.errors import SceneError
 from deltaq.mechanics.changes import change
@@ -145,6 +146,41 @@ def test_a_string_goes_slack_and_catches(method: str) -> None:
     assert found.transitions[1].loss == pytest.approx(0.5 * along**2, rel=1e-7)
     assert late > along**2
     assert np.hypot(*found.values.T).max() < 1.0 + 1e-9
+
+
+def test_a_string_goes_slack_and_catches_as_scipy_has_it() -> None:
+    """Angle and tension while it is taut, x and y while it is slack: DOP853 with events, over all its flights."""
+    found = motion(scene_here("catching-pendulum"), 6.0, 1e-11)
+
+    def circle(_t: float, s: Sequence[float]) -> list[float]:  # x = sin φ, y = −cos φ
+        return [s[1], -G * math.sin(s[0])]
+
+    def flight(_t: float, s: Sequence[float]) -> list[float]:
+        return [s[2], s[3], 0.0, -G]
+
+    def tension(_t: float, s: Sequence[float]) -> float:
+        return s[1] ** 2 + G * math.cos(s[0])
+
+    def slack(_t: float, s: Sequence[float]) -> float:
+        return 1.0 - math.hypot(s[0], s[1]) if _t > begun + 1e-3 else 1.0
+
+    exact = {"method": "DOP853", "rtol": 1e-13, "atol": 1e-14, "dense_output": True}
+    for event in (tension, slack):
+        event.terminal, event.direction = True, -1  # type: ignore[attr-defined]
+    swing = solve_ivp(circle, (0.0, 6.0), [0.0, 5.8], events=tension, **exact)
+    begun, (phi, omega) = float(swing.t[-1]), swing.y[:, -1]
+    start = [math.sin(phi), -math.cos(phi), omega * math.cos(phi), omega * math.sin(phi)]
+    fly = solve_ivp(flight, (begun, 6.0), start, events=slack, **exact)
+    caught, (x, y, vx, vy) = float(fly.t[-1]), fly.y[:, -1]
+    again = solve_ivp(circle, (caught, 6.0), [math.atan2(x, -y), vy * x - vx * y], events=tension, **exact)
+    assert again.t[-1] == 6.0  # it stays taut
+    assert [each.time for each in found.transitions] == pytest.approx([begun, caught], abs=1e-9)
+    for t, position in zip(found.times, found.values, strict=True):
+        if t < begun or t >= caught:
+            (angle, _) = (swing if t < begun else again).sol(t)
+            assert position == pytest.approx([math.sin(angle), -math.cos(angle)], abs=1e-9)
+        else:
+            assert position == pytest.approx(fly.sol(t)[:2], abs=1e-9)
 
 
 @CLOSED_FORMS

@@ -136,6 +136,32 @@ class ConstraintResult(Answer):
     forces: tuple[CoordinateFormula, ...] = Field(description="the generalized reactions, by coordinate")
 
 
+class ImpactResult(Answer):
+    """What an impact does: the momenta jump by Λ ∂g/∂q, such that ġ⁺ = −e ġ⁻. Rates are those before it."""
+
+    impulse: Formula = Field(description="Λ")
+    momentum_jumps: tuple[CoordinateFormula, ...] = Field(description="Λ ∂g/∂q of each coordinate that changes the gap")
+    rate_jumps: tuple[CoordinateFormula, ...] = Field(description="q̇ behind the impact less q̇ before it")
+    energy_loss: Formula = Field(description="E before less E behind; negative where a moving contact feeds energy in")
+
+
+class ContactResult(Answer):
+    """A contact that closes where its gap g(q, t) falls to zero."""
+
+    name: str = Field(examples=["impact"])
+    gap: Formula
+    restitution: Formula
+    impact: ImpactResult | None = Field(description="null where it would be too long, or constraints share the impulse")
+
+
+class StickingResult(Answer):
+    """Dry friction that sticks as long as the magnitude of what holds is no more than the largest holding force."""
+
+    load: str = Field(examples=["friction"])
+    holding: Formula
+    largest: Formula
+
+
 class ReactionResult(Answer):
     """What holds a length, an angle or a guided coordinate that was released in thought: δW = Z δl."""
 
@@ -306,5 +332,7 @@ class DerivationResult(Answer):
     relative_equilibria: tuple[RelativeEquilibrium, ...]
     symbols: tuple[OwnSymbol, ...]
     constraints: tuple[ConstraintResult, ...] = ()
+    contacts: tuple[ContactResult, ...] = ()
+    sticking: tuple[StickingResult, ...] = ()
     reactions: tuple[ReactionResult, ...] = Field((), description="of what the request released")
     releasable: tuple[Releasable, ...] = Field((), description="what may be released")

@@ -131,3 +131,46 @@ def _sticking(system: System, load: Friction) -> dict[sp.Symbol, sp.Expr]:
     c = system.slipping(load)
     own = next((q for q in system.free if system.q(q) == c), None)
     return {} if own is None else {system.rate(own): system.guided(system.expression(load.surface_rate))}
+
+
+@dataclass(frozen=True)
+class Contact:
+    """A contact in the result: its gap and coefficient of restitution, and what an impact does where that is short."""
+
+    name: str
+    gap: sp.Expr
+    restitution: sp.Expr
+    impact: Impact | None
+
+
+@dataclass(frozen=True)
+class Sticking:
+    """What holds at a friction load, and how much may."""
+
+    load: str
+    holding: sp.Expr
+    largest: sp.Expr
+
+
+def contacts(system: System) -> tuple[Contact, ...]:
+    """All contacts, in the scene's order."""
+    return tuple(
+        Contact(event.name, gap(system, event), restitution(system, event), impact(system, event))
+        for event in bouncing(system)
+    )
+
+
+def sticking(system: System) -> tuple[Sticking, ...]:
+    """All friction loads whose holding force is short enough to be read."""
+    held = ((load, holding_force(system, load)) for load in frictions(system))
+    return tuple(
+        Sticking(load.source, found.force, system.display(largest_force(system, load, found)))
+        for load, found in held
+        if found is not None
+    )
+
+
+def largest_force(system: System, load: Friction, found: Held) -> sp.Expr:
+    """F₀ at the rates of what sticks."""
+    rates = {rate: value for rate, value in found.motion.items() if rate in set(map(system.rate, system.free))}
+    return system.guided(system.expression(load.static)).xreplace(rates)

@@ -122,10 +122,16 @@ def _about(system: System, equilibrium: Equilibrium) -> Linearization:
         held = band(system, equilibrium)
         judged = Verdict("stable", kind="band") if held else verdict(system, equilibrium, point, numbers, found)
         if equilibrium.exact:
-            matrices = [system.display(matrix.xreplace(dict(equilibrium.values))) for matrix in raw]
+            there = (matrix.xreplace(dict(equilibrium.values)) for matrix in raw)
+            matrices = [system.display(_beside_jumps(matrix) if smooth else matrix) for matrix in there]
         else:
             matrices = [_rational(values, len(system.free)) for values in numbers]
     return Linearization(equilibrium, matrices[0], matrices[1], matrices[2], found, judged, smooth, held)
+
+
+def _beside_jumps(matrix: sp.ImmutableMatrix) -> sp.ImmutableMatrix:
+    """The matrix where no force jumps: there the slope of a jump, δ(v) of a belt with v ≠ 0, is zero."""
+    return matrix.replace(sp.DiracDelta, lambda *_: sp.Integer(0))
 
 
 def _rational(values: list[arb], size: int) -> sp.ImmutableMatrix:

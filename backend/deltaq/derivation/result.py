@@ -19,6 +19,7 @@ from .displacement import meaning
 from .equilibria import Search
 from .formula import Explicit, Term
 from .generator import Generator, Symmetry, solved
+from .impacts import Contact, Sticking, contacts, sticking
 from .linearization import Linearization
 from .matrix_form import forcing, left_side, mass_matrix
 from .multipliers import multipliers
@@ -120,6 +121,8 @@ class Result:
     generators: tuple[GeneratorFamily, ...] = ()
     constraints: tuple[Bound, ...] = ()
     reactions: tuple[Release, ...] = ()
+    contacts: tuple[Contact, ...] = ()
+    sticking: tuple[Sticking, ...] = ()
 
 
 def result_of(system: System) -> Result:
@@ -165,6 +168,8 @@ def equations_of(system: System) -> Result:
         terms=_terms(system),
         loads=tuple(_potential_of(system, load) for load in system.load_names),
         constraints=tuple(_bound(system)),
+        contacts=contacts(system),
+        sticking=sticking(system),
     )
 
 

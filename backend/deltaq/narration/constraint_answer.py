@@ -1,7 +1,8 @@
-"""Constraints and reactions as data: expressions as plain text, as LaTeX and in words."""
+"""Constraints, contacts and reactions as data: expressions as plain text, as LaTeX and in words."""
 
 from __future__ import annotations
 
+from ..derivation.impacts import Contact, Sticking
 from ..derivation.released import Release
 from ..derivation.result import Bound
 from ..mechanics.release import held
@@ -43,3 +44,26 @@ def releasable(scene: Scene, write: ExpressionWriter) -> list[Document]:
         {"name": each.name, "kind": each.kind, "latex": symbols[each.name], "spoken": write.speech.name(each.name)}
         for each in held(scene)
     ]
+
+
+def contact(found: Contact, write: ExpressionWriter) -> Document:
+    """A contact, and what an impact does: null where that would be too long to be read."""
+    impact = found.impact
+    return {
+        "name": found.name,
+        "gap": write.written(found.gap),
+        "restitution": write.written(found.restitution),
+        "impact": None
+        if impact is None
+        else {
+            "impulse": write.written(impact.impulse),
+            "momentum_jumps": [{"coordinate": q, **write.written(jump)} for q, jump in impact.momenta.items()],
+            "rate_jumps": [{"coordinate": q, **write.written(jump)} for q, jump in impact.rates.items()],
+            "energy_loss": write.written(impact.loss),
+        },
+    }
+
+
+def sticking(found: Sticking, write: ExpressionWriter) -> Document:
+    """What friction holds with, and at most."""
+    return {"load": found.load, "holding": write.written(found.holding), "largest": write.written(found.largest)}

@@ -12,7 +12,7 @@ from ..derivation.generator import Generator
 from ..derivation.result import Conserved, Result
 from ..derivation.result_history import Origins
 from ..derivation.step import Origin
-from .constraint_answer import constraint, reaction, releasable
+from .constraint_answer import constraint, contact, reaction, releasable, sticking
 from .expression_writer import ExpressionWriter
 from .model_answer import equilibrium, load, own_symbols, routh, search, steady
 
@@ -53,6 +53,8 @@ def written(result: Result, origins: Mapping[str, Mapping[str, Origins]], write:
         "releasable": releasable(result.scene, write),
         "routh": routh(result.routh, write),
         "relative_equilibria": [steady(each, number, write) for number, each in enumerate(result.steady, 1)],
+        "contacts": [contact(each, write) for each in result.contacts],
+        "sticking": [sticking(each, write) for each in result.sticking],
     }
 
 

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from ...mechanics.contributions import Friction
 from ..formula import Explicit, Inserted, Named, Quantity, Rate
-from ..impacts import Held
+from ..impacts import Held, largest_force
 from ..step import Relation, Step
 from ..system import System
 
@@ -16,9 +16,7 @@ RULE = "sticking-condition"
 
 def apply(system: System, load: Friction, found: Held) -> Step:
     """R, that nothing slips with it, and F₀."""
-    static = system.guided(system.expression(load.static)).xreplace(
-        {rate: value for rate, value in found.motion.items() if rate in map(system.rate, system.free)}
-    )
+    static = largest_force(system, load, found)
     slip_rate = Rate(Explicit(system.slip_rate(load)))
     lines = (
         Relation((Named(Quantity("holding-force", load.source), found.force), Explicit(found.force))),
