@@ -1,0 +1,345 @@
+"""Many motions of one model going their steps side by side, as arrays, with the series of each step at hand.
+
+The step is that of `taylor` and so is the look at what it really did: a step that is worse than it seemed is taken
+again, shorter. All motions share their parameters. Forces with kinks end a step where the argument of their condition
+changes its sign; pieces of the span bound the steps where the time alone moves the forces.
+"""
+
+from __future__ import annotations
+
+import ctypes
+from collections.abc import Sequence
+from dataclasses import dataclass, fields
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..model.recurrences import nudged
+from .kernels.ensemble import LANES
+from .kernels.motion import FINE, NOT_FINITE, SINGULAR, SMALLEST_PIVOT, STEP_LIMIT, STEP_UNDERFLOW, TOO_LARGE
+from .kernels.step import LARGEST_VALUE
+from .kernels.taylor import ALWAYS_UNNOTICED, PLACES, ROOM, SHORTER, UNNOTICED
+from .pieces import Pieces
+from .problem import Floats, Problem
+from .run import Steps
+from .series.engine import jet_of_model
+
+Integers = NDArray[np.int64]
+Truths = NDArray[np.bool_]
+GOES_ON = -1
+HALVINGS = 60
+ROUNDING = 2.0**-53
+LEAST_PART = 1e-3  # of the step that the series would allow; no shorter one is asked for by who watches
+_CALL = ctypes.CFUNCTYPE(None, *[ctypes.c_void_p] * 4)
+
+
+@dataclass(frozen=True)
+class Polynomials:
+    """Series of steps, each by itself: q, q̇ (and ∫P dt) as polynomials in θ, the time behind `start` in `units`.
+
+    `coefficients` has shape (steps, order + 1, width), `old` and `rest` (steps, width), `start` and `units` (steps,).
+    """
+
+    coefficients: Floats
+    old: Floats
+    rest: Floats
+    start: Floats
+    units: Floats
+    degrees: int
+
+    def at(self, theta: Floats) -> tuple[Floats, Floats]:
+        """Rows (q, q̇, t) and the time derivatives of (q, q̇) at places θ, one in each step."""
+        n, c, x = 2 * self.degrees, self.coefficients, theta[:, None]
+        values, slopes = c[:, -1], np.zeros_like(c[:, -1])
+        for k in range(c.shape[1] - 2, 0, -1):
+            slopes = slopes * x + values
+            values = values * x + c[:, k]
+        states = self.old + (values * x + self.rest)
+        rates = (values + slopes * x) / self.units[:, None]
+        return np.column_stack([states[:, :n], self.start + theta * self.units]), rates[:, :n]
+
+    def chosen(self, which: Truths) -> Polynomials:
+        """Some of them."""
+        arrays = (self.coefficients, self.old, self.rest, self.start, self.units)
+        return Polynomials(*(each[which] for each in arrays), self.degrees)
+
+    @classmethod
+    def joined(cls, parts: Sequence[Polynomials]) -> Polynomials:
+        """All of several."""
+        names = ("coefficients", "old", "rest", "start", "units")
+        return cls(*(np.concatenate([getattr(p, name) for p in parts]) for name in names), parts[0].degrees)
+
+
+@dataclass(frozen=True)
+class _Lanes:
+    """Motions side by side where they begin a step; the last axis of all arrays is theirs.
+
+    `which` are their numbers. `old` with its `rest` (Kahan's) is the state at the time `now`, `coefficients` the series
+    there, shape (order + 1, components, lanes), in `units` of time; steps up to `least` may be tried, `taken` were.
+    """
+
+    which: Integers
+    old: Floats
+    rest: Floats
+    now: Floats
+    least: Floats
+    taken: Integers
+    units: Floats
+    coefficients: Floats
+
+    def chosen(self, kept: Truths) -> _Lanes:
+        """Those that are kept."""
+        return _Lanes(*(np.ascontiguousarray(getattr(self, one.name)[..., kept]) for one in fields(self)))
+
+    def mixed(self, other: _Lanes, which: Truths) -> _Lanes:
+        """The other ones where `which` holds, else these."""
+        if which.all():
+            return other
+        pairs = ((getattr(self, one.name), getattr(other, one.name)) for one in fields(self))
+        return _Lanes(*(np.where(which, theirs, mine) for mine, theirs in pairs))
+
+
+@dataclass(frozen=True)
+class _Trial:
+    """A step of all lanes before the verdict on it: sizes, times and states (with rests) at its end, and ẋ there."""
+
+    wanted: Floats
+    size: Floats
+    end: Floats
+    is_cut: Truths
+    new: Floats
+    rest: Floats
+    slopes: Floats
+
+
+class March:
+    """Motions from `starts`, shape (motions, 2n), to the problem's t_end; `steps` has the order and the pieces, too."""
+
+    def __init__(self, problem: Problem, starts: Floats, steps: Steps) -> None:
+        self.problem, self.steps, self.count = problem, steps, len(starts)
+        self.end_time, self.degrees, self.order = problem.t_end, problem.degrees, steps.order or 0
+        self.jet = jet_of_model(problem.model, is_long=True, lanes=LANES)
+        self.outcomes = np.full(self.count, GOES_ON, dtype=np.int64)
+        recurrences = problem.model.recurrences
+        states = np.hstack([starts, np.zeros((self.count, self.jet.shape.width - 2 * self.degrees))])
+        constants = recurrences.constants(np.array(problem.parameters))
+        if steps.is_nudged:
+            states, constants = nudged(states), recurrences.nudged(constants)
+        self._constants = constants[:, None]
+        self._call, self._work = _CALL(self.jet.code.address), np.zeros(self.jet.work)
+        self._program = np.array([self.order], dtype=np.int64)
+        pieces = steps.pieces or Pieces.whole(self.end_time)
+        bounds = pieces.bounded(steps.size)
+        self._ends, self._bounds = np.array(pieces.ends), np.where(bounds > 0.0, bounds, np.inf)
+        self._lanes = self._begun(np.ascontiguousarray(states.T), steps.size)
+        self._reached, self._taken = np.zeros(self.count), np.zeros(self.count, dtype=np.int64)
+        self._last, self._trial = self._lanes, None
+
+    @property
+    def goes_on(self) -> bool:
+        """Whether any motion does."""
+        return bool((self.outcomes == GOES_ON).any())
+
+    @property
+    def which(self) -> Integers:
+        """The numbers of the motions that go on, in the order of the lanes."""
+        return self._lanes.which
+
+    def reached(self) -> Floats:
+        """The time that each motion has come to."""
+        self._reached[self._lanes.which] = self._lanes.now
+        return self._reached.copy()
+
+    def rows(self) -> tuple[Floats, Floats]:
+        """Rows (q, q̇, t) and the time derivatives of (q, q̇) where the lanes are: shape (lanes, …)."""
+        n, lanes = 2 * self.degrees, self._lanes
+        return np.vstack([lanes.old[:n], lanes.now]).T, (lanes.coefficients[1, :n] / lanes.units).T
+
+    def end(self, which: Truths) -> None:
+        """The motions of these numbers have come to their end."""
+        self.outcomes[which & (self.outcomes == GOES_ON)] = FINE
+
+    def end_all(self, outcome: int) -> None:
+        """No motion goes on."""
+        self.outcomes[self.outcomes == GOES_ON] = outcome
+
+    def step(self, parts: int) -> tuple[Floats, Floats, Floats, Floats]:
+        """A step of all that go on is tried.
+
+        Returns, at the ends of so many parts of it: places θ, shape (parts, lanes), rows (q, q̇, t) and time derivatives
+        of (q, q̇), shape (parts, lanes, …); and the lengths of the parts, shape (lanes,).
+        """
+        self._drop()
+        lanes, n = self._lanes, 2 * self.degrees
+        wanted = self._wanted()
+        size, end = self._fitted(np.minimum(wanted, lanes.least))
+        size, is_cut = self._cut(size)
+        shares = np.arange(1, parts + 1)[:, None] / parts
+        theta = (size / lanes.units) * shares
+        values, slopes = self._horner(theta)
+        rates = (slopes / lanes.units)[:, :n]
+        change = values[-1] + lanes.rest
+        new = lanes.old + change
+        self._trial = _Trial(
+            wanted,
+            size,
+            np.where(is_cut, lanes.now + size, end),
+            is_cut,
+            new,
+            change - (new - lanes.old),
+            slopes[-1, :n] / lanes.units,
+        )
+        states = lanes.old[:n] + (values[:, :n] + lanes.rest[:n])
+        rows = np.concatenate([states, (lanes.now + size * shares)[:, None]], axis=1)
+        return theta, np.moveaxis(rows, 1, 2), np.moveaxis(rates, 1, 2), size / parts
+
+    def accept(self, is_unseen: Truths) -> Truths:
+        """Whether the step tried is taken, by lane; where it was bad, or `is_unseen` and not too short, it is not."""
+        trial, lanes = self._trial, self._lanes
+        if trial is None:
+            raise LookupError("a step is tried before it is accepted")
+        units = _unit_near(trial.size, lanes.units)
+        following = self._expanded(trial.new, trial.end, units)
+        outcome = self._outcome(following, trial.new)
+        refused = self._is_bad(trial, following, units, outcome)
+        refused |= is_unseen & (trial.size > LEAST_PART * trial.wanted)
+        taken = ~refused & (outcome == FINE)
+        ended = ~refused & (outcome != FINE)
+        least = np.full_like(trial.size, np.inf)
+        count = lanes.taken + 1
+        gone = _Lanes(lanes.which, trial.new, trial.rest, trial.end, least, count, units, following)
+        stays = _Lanes(**{**vars(lanes), "least": np.where(refused, SHORTER * trial.size, lanes.least)})
+        self._last, self._lanes, self._trial = lanes, stays.mixed(gone, taken), None
+        outcome[refused & (lanes.now + SHORTER * trial.size <= lanes.now)] = STEP_UNDERFLOW
+        ended |= outcome == STEP_UNDERFLOW
+        self.outcomes[lanes.which[ended]] = outcome[ended]
+        self.outcomes[lanes.which[taken & (count >= self.problem.step_limit)]] = STEP_LIMIT
+        self.outcomes[lanes.which[taken & (trial.end >= self.end_time)]] = FINE
+        return taken
+
+    def polynomials(self, lanes: Integers) -> Polynomials:
+        """The series of the step looked at last, by place among the lanes that took it."""
+        last, width = self._last, self.jet.shape.width
+        coefficients = np.moveaxis(last.coefficients[:, :width, lanes], 2, 0)
+        old, rest = last.old[:, lanes].T, last.rest[:, lanes].T
+        return Polynomials(coefficients, old, rest, last.now[lanes], last.units[lanes], self.degrees)
+
+    def _drop(self) -> None:
+        """Lanes whose motion has ended are left out."""
+        goes_on = self.outcomes[self._lanes.which] == GOES_ON
+        if not goes_on.all():
+            self.reached()
+            self._lanes = self._lanes.chosen(goes_on)
+
+    def _begun(self, states: Floats, near: float) -> _Lanes:
+        """All motions where they begin; their unit of time is shortened until the coefficients are in range."""
+        count = states.shape[1]
+        units, now = np.full(count, 2.0 ** np.floor(np.log2(near))), np.zeros(count)
+        for _ in range(4):
+            found = self._expanded(states, now, units)
+            outcome = self._outcome(found, states)
+            too_large = (outcome == TOO_LARGE) | (outcome == NOT_FINITE)
+            if not too_large.any():
+                break
+            units = np.where(too_large, units * 2.0**-24, units)
+        self.outcomes[outcome != FINE] = outcome[outcome != FINE]
+        numbers, least = np.arange(count), np.full(count, np.inf)
+        return _Lanes(numbers, states, np.zeros_like(states), now, least, np.zeros_like(numbers), units, found)
+
+    def _expanded(self, states: Floats, times: Floats, units: Floats) -> Floats:
+        """The coefficients at these states, shape (order + 1, components, lanes)."""
+        count = len(times)
+        blocks = -(-count // LANES)
+        padded = np.minimum(np.arange(blocks * LANES), count - 1)
+        constants = np.broadcast_to(self._constants, (len(self._constants), count))
+        given = np.vstack([units, states, times, constants])[:, padded].reshape(-1, blocks, LANES)
+        given = np.ascontiguousarray(given.transpose(1, 0, 2))
+        out = np.empty((blocks, self.order + 1, self.jet.shape.components, LANES))
+        to, of, work, program = (each.ctypes.data for each in (out, given, self._work, self._program))
+        for block in range(blocks):
+            self._call(to + block * out.strides[0], of + block * given.strides[0], work, program)
+        return np.ascontiguousarray(out.transpose(1, 2, 0, 3).reshape(*out.shape[1:3], -1)[..., :count])
+
+    def _outcome(self, found: Floats, states: Floats) -> Integers:
+        """Whether series can be used, by lane."""
+        shape, n = self.jet.shape, 2 * self.degrees
+        first = shape.width + len(shape.recurrences.conditions)
+        pivots, diagonals = found[0, first::2], found[0, first + 1 :: 2]
+        total = (np.abs(found[1, :n]) + np.abs(found[self.order, :n]) + np.abs(states[:n])).sum(axis=0)
+        outcome = np.where(np.isnan(total), NOT_FINITE, np.where(total <= LARGEST_VALUE, FINE, TOO_LARGE))
+        singular = ~(pivots > SMALLEST_PIVOT * diagonals)
+        lost = np.isnan(pivots).any(axis=0)
+        return np.asarray(np.where(lost, NOT_FINITE, np.where(singular.any(axis=0), SINGULAR, outcome)))
+
+    def _wanted(self) -> Floats:
+        """The step by which the last two coefficients shrink to the tolerance, by lane."""
+        n, c, order = 2 * self.degrees, self._lanes.coefficients, self.order
+        scale = np.maximum(1.0, np.abs(self._lanes.old[:n]))
+        with np.errstate(divide="ignore"):
+            last, before = (
+                np.log((np.abs(c[k, :n]) / scale).max(axis=0) / self.steps.tolerance) / k for k in (order, order - 1)
+            )
+        return np.asarray(self._lanes.units * np.exp(-0.7 / (order - 1.0) - np.maximum(last, before)))
+
+    def _fitted(self, wanted: Floats) -> tuple[Floats, Floats]:
+        """Steps within the pieces of the span, and the times that they end at."""
+        now = self._lanes.now
+        piece = np.minimum(np.searchsorted(self._ends, now, side="right"), len(self._ends) - 1)
+        size, left = np.minimum(wanted, self._bounds[piece]), self._ends[piece] - now
+        is_last = size * (1.0 + 1e-9) >= left
+        return np.where(is_last, left, size), np.where(is_last, self._ends[piece], now + size)
+
+    def _cut(self, size: Floats) -> tuple[Floats, Truths]:
+        """Steps up to just behind where the argument of a condition first changes its sign."""
+        found, lanes = size.copy(), self._lanes
+        for row in range(self.jet.shape.width, self.jet.shape.width + len(self.jet.shape.recurrences.conditions)):
+            for lane in range(len(size)):
+                series, unit = lanes.coefficients[:, row, lane], lanes.units[lane]
+                at = _first_change(series[::-1], found[lane] / unit) * unit
+                if at < found[lane]:
+                    found[lane] = min(found[lane], at + ROOM * ROUNDING * max(lanes.now[lane], size[lane]))
+        return found, found < size
+
+    def _horner(self, theta: Floats) -> tuple[Floats, Floats]:
+        """What states grow by up to places θ, (parts, lanes), and the derivatives by θ: (parts, width, lanes) each."""
+        c, x = self._lanes.coefficients[:, : self.jet.shape.width], theta[:, None]
+        values = np.broadcast_to(c[self.order], (len(theta), *c.shape[1:])).copy()
+        slopes = np.zeros_like(values)
+        for k in range(self.order - 1, 0, -1):
+            slopes *= x
+            slopes += values
+            values *= x
+            values += c[k]
+        slopes *= x
+        slopes += values
+        values *= x
+        return values, slopes
+
+    def _is_bad(self, trial: _Trial, following: Floats, units: Floats, outcome: Integers) -> Truths:
+        """Whether a step was worse than it seemed, and a shorter one may be better."""
+        n, allowed = 2 * self.degrees, max(UNNOTICED * self.steps.tolerance, ALWAYS_UNNOTICED)
+        apart = trial.size * np.abs(trial.slopes - following[1, :n] / units) / np.maximum(1.0, np.abs(trial.new[:n]))
+        worse = (apart.max(axis=0) > allowed) & ~trial.is_cut
+        return np.asarray((worse | (outcome != FINE)) & (trial.size > LEAST_PART**2 * trial.wanted))
+
+
+def _unit_near(size: Floats, units: Floats) -> Floats:
+    """A power of two near each step, the one it has where that is near enough."""
+    near = (0.25 * units <= size) & (size <= 4.0 * units)
+    return np.asarray(np.where(near, units, 2.0 ** np.floor(np.log2(size))))
+
+
+def _first_change(series: Floats, end: float) -> float:
+    """Where up to θ = `end` a polynomial (highest power first) first changes the sign that it begins with."""
+    start = float(series[-1])
+    places = end * np.arange(1, PLACES + 1) / PLACES
+    changed = np.polyval(series, places) * np.sign(start) <= 0.0 if start else np.polyval(series, places) != 0.0
+    if not changed.any():
+        return end
+    first = int(np.argmax(changed))
+    below, above = (places[first - 1] if first else 0.0), places[first]
+    for _ in range(HALVINGS):
+        middle = 0.5 * (below + above)
+        is_same = float(np.polyval(series, middle)) * np.sign(start) > 0.0
+        below, above = (middle, above) if is_same else (below, middle)
+    return float(above)
