@@ -51,6 +51,7 @@ CODES: Mapping[str, str] = MappingProxyType(
         "request-step-and-tolerance": "request-step-and-tolerance",
         "ensemble-unlike": "ensemble-unlike",
         "ensemble-too-large": "ensemble-too-large",
+        "section-too-large": "section-too-large",
         "request-outside": "request-outside",
         "request-not-text": "request-not-text",
         "request-not-number": "request-not-number",
@@ -67,7 +68,7 @@ OF_FIELDS = frozenset({"missing-field", "unknown-field"})  # problems whose sent
 FILLING = frozenset(
     {
         *(*SIDES, "min_length", "max_length", "expected", "value", "min", "max", "format"),
-        *("runs", "seconds", "most_runs", "most_seconds", "samples"),
+        *("runs", "seconds", "most_runs", "most_seconds", "samples", "points", "most_points"),
     }
 )  # what sentences speak of
 _QUOTED = re.compile(r"'([^']*)'")

@@ -60,14 +60,15 @@ class Polynomials:
 
     def chosen(self, which: Truths) -> Polynomials:
         """Some of them."""
-        arrays = (self.coefficients, self.old, self.rest, self.start, self.units)
-        return Polynomials(*(each[which] for each in arrays), self.degrees)
+        c, old, rest = (each[which] for each in (self.coefficients, self.old, self.rest))
+        return Polynomials(c, old, rest, self.start[which], self.units[which], self.degrees)
 
     @classmethod
     def joined(cls, parts: Sequence[Polynomials]) -> Polynomials:
         """All of several."""
         names = ("coefficients", "old", "rest", "start", "units")
-        return cls(*(np.concatenate([getattr(p, name) for p in parts]) for name in names), parts[0].degrees)
+        arrays = {name: np.concatenate([getattr(part, name) for part in parts]) for name in names}
+        return cls(**arrays, degrees=parts[0].degrees)
 
 
 @dataclass(frozen=True)
@@ -133,7 +134,8 @@ class March:
         self._ends, self._bounds = np.array(pieces.ends), np.where(bounds > 0.0, bounds, np.inf)
         self._lanes = self._begun(np.ascontiguousarray(states.T), steps.size)
         self._reached, self._taken = np.zeros(self.count), np.zeros(self.count, dtype=np.int64)
-        self._last, self._trial = self._lanes, None
+        self._last = self._lanes
+        self._trial: _Trial | None = None
 
     @property
     def goes_on(self) -> bool:
@@ -215,7 +217,7 @@ class March:
         self.outcomes[lanes.which[ended]] = outcome[ended]
         self.outcomes[lanes.which[taken & (count >= self.problem.step_limit)]] = STEP_LIMIT
         self.outcomes[lanes.which[taken & (trial.end >= self.end_time)]] = FINE
-        return taken
+        return np.asarray(taken)
 
     def polynomials(self, lanes: Integers) -> Polynomials:
         """The series of the step looked at last, by place among the lanes that took it."""

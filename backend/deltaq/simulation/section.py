@@ -66,6 +66,16 @@ class Crossings:
     states: Floats
     speeds: Floats
 
+    @property
+    def rows(self) -> Floats:
+        """Rows (q, q̇, t)."""
+        return np.column_stack([self.states, self.times])
+
+    @property
+    def none(self) -> Crossings:
+        """No crossing, of the same shape."""
+        return Crossings(self.motions[:0], self.times[:0], self.states[:0], self.speeds[:0])
+
 
 @dataclass(frozen=True)
 class Standing:
@@ -85,7 +95,7 @@ def follow(
 ) -> Iterator[tuple[Crossings, Standing]]:
     """The crossings of motions from `starts`, shape (motions, 2n), as they come, with where all stand.
 
-    A motion ends at the problem's t_end, or with so many crossings. A start that lies in the plane is no crossing.
+    A motion ends at the problem's t_end, or with so many crossings. A start that lies in the plane is the first.
     """
     march = March(problem, starts, steps)
     search = _Search(surface, march)
@@ -138,6 +148,9 @@ class _Search:
         value, shift = found[:, 0], surface.shift(found[:, 0])
         is_zero = np.abs(value - shift) <= ZERO * np.maximum(scale, np.abs(value))
         self._value, self._slope = np.where(is_zero, shift, value), (found[:, 1:-1] * rates).sum(axis=1) + found[:, -1]
+        begun = np.flatnonzero(is_zero & (self._slope * (surface.direction or np.sign(self._slope)) > 0.0))
+        self._begun = Crossings(begun, rows[begun, -1], rows[begun, :-1], self._slope[begun])
+        self.crossed[begun] = 1
 
     def look(self) -> None:
         """A step of all motions: those that see the plane well enough are accepted, and searched for crossings."""
@@ -168,7 +181,8 @@ class _Search:
             self._keep(seen.which[lane], self.march.polynomials(lane), *ends, *values)
         turned = (left * right > 0.0) & (left * seen.slopes[:-1] < 0.0) & (right * seen.slopes[1:] > 0.0) & taken
         if turned.any():
-            self._touch(seen, *np.nonzero(turned), left, right, shift)
+            part, lane = np.nonzero(turned)
+            self._touch(seen, part, lane, left, right, shift)
 
     def _keep(self, which: Integers, series: Polynomials, *arrays: Floats) -> None:
         """Keeps brackets, of the motions of these numbers."""
@@ -184,7 +198,8 @@ class _Search:
         near = extremum * np.sign(left) <= NEAR * np.minimum(np.abs(left), np.abs(right))
         if not near.any():
             return
-        part, lane, x, left, right, shift = (each[near] for each in (part, lane, x, left, right, shift))
+        part, lane = part[near], lane[near]
+        x, left, right, shift = (each[near] for each in (x, left, right, shift))
         a, b = seen.theta[part, lane], seen.theta[part + 1, lane]
         series, middle = self.march.polynomials(lane), a + x * (b - a)
         value = self.surface.slopes(*series.at(middle))[0] - shift
@@ -196,10 +211,8 @@ class _Search:
     def found(self) -> Crossings:
         """The crossings since it was last asked, motion by motion in their order."""
         kept, self._kept, self.pending = self._kept, [], 0
-        parts = [_refined(each, self.surface) for each in _joined(kept)]
-        if not parts:
-            empty = np.zeros(0)
-            return Crossings(np.zeros(0, dtype=np.int64), empty, np.zeros((0, 2 * self.march.degrees)), empty)
+        parts = [self._begun, *(_refined(each, self.surface) for each in _joined(kept))]
+        self._begun = self._begun.none
         names = ("motions", "times", "states", "speeds")
         motions, times, states, speeds = (np.concatenate([getattr(p, name) for p in parts]) for name in names)
         order = np.lexsort((times, motions))
@@ -248,3 +261,14 @@ def _refined(found: _Brackets, surface: Surface) -> Crossings:
             break
     rows, rates = series.at(theta)
     return Crossings(found.motions, rows[:, -1], rows[:, :-1], surface.slopes(rows, rates)[1])
+
+
+def path_of(problem: Problem, steps: Steps, most: int, cancelled: Flag) -> Floats:
+    """The ends of the steps of the problem's own motion, `most` at most, as rows (q, q̇, t)."""
+    march = March(problem, problem.state[None, : 2 * problem.degrees], steps)
+    rows = [march.rows()[0]]
+    while march.goes_on and len(rows) < most and cancelled[0] == 0:
+        march.step(1)
+        if march.accept(np.zeros(1, dtype=bool))[0]:
+            rows.append(march.rows()[0])
+    return np.concatenate(rows)

@@ -1,0 +1,156 @@
+"""Poincaré section: where many motions of one energy, or of one drive, cross a plane in phase space.
+
+Regular motions leave curves, chaotic ones fill areas. Each point is a root of the plane's function on the polynomial of
+a Taylor step, known to rounding until the motion's own sensitivity takes over; after its horizon it is marked.
+Source: see `lab.plane`, `lab.starts` and `lab.orbits`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from ...contract.experiments.poincare_section import PoincareSectionRequest
+from ...errors import Problem as Mistake
+from ...errors import RequestError
+from ...simulation.problem import Floats
+from ...simulation.rounding import rounded as rounded_to
+from ...simulation.section import path_of
+from ..charts.poincare_section import charts
+from ..experiment import Experiment
+from ..orbits import LOST, MEETS, TOGETHER, Orbit, followed, steps_of
+from ..plane import Section, section_of
+from ..report import Document, Report, rounded, significant
+from ..starts import Grid, Starts
+from ..subject import Subject, free_subject_of
+
+TOTAL = 1000
+LONGEST_PATH = 2000  # steps of the scene's own motion that are looked at before anything else
+
+
+@dataclass(frozen=True)
+class _Asked:
+    """What is measured: the section, the starts with the scene's own first, where it belongs to them."""
+
+    request: PoincareSectionRequest
+    subject: Subject
+    section: Section
+    grid: Starts
+    states: Floats
+    has_own: bool
+    energy: float | None
+    scale: float
+
+
+def run(request: PoincareSectionRequest) -> Iterator[Report]:
+    """Orbits as they come, some dozens side by side; then what is known of them."""
+    subject, cancelled = free_subject_of(request), np.zeros(1, dtype=np.int64)
+    asked, orbits = _asked(request, subject, cancelled), list[Orbit]()
+    steps = steps_of(subject.problem, is_driven=asked.section.is_driven)
+    yield Report(0, TOTAL, _told(asked, []))
+    for first in range(0, len(asked.states), TOGETHER):
+        some = asked.states[first : first + TOGETHER]
+        for share, found in followed(asked.section, some, steps, request.crossings + request.skip, cancelled):
+            done = (first + share * len(some)) / len(asked.states)
+            yield Report(min(int(TOTAL * done), TOTAL - 1), TOTAL, _told(asked, [*orbits, *found]))
+        orbits += found
+    _require_points(asked, orbits)
+    yield Report(TOTAL, TOTAL, _told(asked, orbits))
+
+
+def _asked(request: PoincareSectionRequest, subject: Subject, cancelled: np.ndarray) -> _Asked:
+    problem = subject.problem
+    path = path_of(problem, steps_of(problem, is_driven=False)[0], LONGEST_PATH, cancelled)
+    section = section_of(request, subject, path)
+    grid = Grid(section, path)
+    own = grid.own
+    found = float(grid.energy_at(own[None, :])[0])
+    energy = None if section.is_driven else found if request.energy is None else request.energy
+    starts = grid.starts(request.count, energy)
+    has_own = energy is None or abs(energy - found) <= 1e-12 * max(abs(energy), abs(found))
+    states = np.vstack([own[None, :], starts.states]) if has_own else starts.states
+    if not len(states):
+        least = {"energy": significant(energy or 0.0), "least": significant(grid.lowest[1])}
+        raise RequestError(Mistake("section-energy-unreachable", "/energy", parameters=least))
+    values = section.function.jet.table(path)
+    scale = float((np.abs(values[:, 1:-1]) * np.abs(path[:, :-1])).sum(axis=1).max()) + float(
+        np.abs(values[:, -1]).max()
+    )
+    return _Asked(request, subject, section, starts, states, has_own, energy, scale)
+
+
+def _require_points(asked: _Asked, orbits: Sequence[Orbit]) -> None:
+    """Raises RequestError where no orbit crosses the plane, or all stay in it."""
+    told: dict[str, str | float] = {"plane": asked.section.plane.text[:80], "t_end": asked.subject.problem.t_end}
+    if all(orbit.reach <= MEETS * asked.scale for orbit in orbits):
+        raise RequestError(Mistake("section-plane-contains", "/plane", parameters=told))
+    if not any(len(orbit.rows) > asked.request.skip for orbit in orbits):
+        raise RequestError(Mistake("section-never-met", "/plane", parameters=told))
+
+
+def _told(asked: _Asked, orbits: Sequence[Orbit]) -> Document:
+    """What was found so far."""
+    section, skip = asked.section, asked.request.skip
+    seen = [orbit.seen[skip:] for orbit in orbits]
+    points = np.concatenate([np.zeros((0, 3)), *seen])
+    extent = float(np.ptp(points[:, :2], axis=0).max()) if len(points) else 1.0
+    trusted = [orbit.seen[skip : orbit.horizon(extent)] for orbit in orbits if len(orbit.errors)]
+    errors = [orbit.errors[skip : orbit.horizon(extent)] for orbit in orbits if len(orbit.errors)]
+    verdicts = [orbit.is_chaotic(extent) for orbit in orbits[int(asked.has_own) :]]
+    clear = [one for one in verdicts if one is not None]
+    return asked.subject.described | {
+        "plane": section.plane.text,
+        "direction": section.direction,
+        "horizontal": section.axes[0].text,
+        "vertical": section.axes[1].text,
+        "driven": section.is_driven,
+        "energy": None if asked.energy is None else significant(asked.energy, 8),
+        "orbits": [_orbit(asked, orbit, extent, own=asked.has_own and i == 0) for i, orbit in enumerate(orbits)],
+        "points": len(points),
+        "forbidden": asked.grid.forbidden,
+        "unsolved": asked.grid.unsolved,
+        "missed": sum(not len(each) for each in seen),
+        "accuracy": _largest(np.concatenate([np.zeros(0), *errors])),
+        "kept": _kept(asked.energy, np.concatenate([np.zeros((0, 3)), *trusted])[:, 2]),
+        "regular": significant(clear.count(False) / len(clear), 3) if clear and not section.is_driven else None,
+        "extent": significant(extent),
+    }
+
+
+def _largest(errors: Floats) -> float | None:
+    """The largest; of single points that graze the plane it is not known."""
+    known = errors[np.isfinite(errors)]
+    return significant(float(known.max()), 2) if len(known) else None
+
+
+def _kept(energy: float | None, found: Floats) -> float | None:
+    if energy is None or not len(found):
+        return None
+    return significant(float(np.abs(found - energy).max() / max(abs(energy), np.abs(found).max(), 1e-300)), 2)
+
+
+def _orbit(asked: _Asked, orbit: Orbit, extent: float, *, own: bool) -> Document:
+    n, skip = asked.section.problem.degrees, asked.request.skip
+    known = orbit.horizon(extent)
+    count = len(orbit.rows) if asked.request.beyond else known
+    rows, seen, errors = orbit.rows[skip:count], orbit.seen[skip:count], orbit.errors[skip:count]
+    is_lost = known < len(orbit.rows)
+    shown = rounded_to(seen[:, :2], np.minimum(errors, 1e-3)) if len(errors) else seen[:, :2]
+    names = [coordinate.name for coordinate in asked.subject.scene.free]
+    starts = zip(names, orbit.start[:n].tolist(), orbit.start[n:].tolist(), strict=True)
+    return {
+        "initial": {name: {"value": value, "rate": rate} for name, value, rate in starts},
+        "own": own,
+        "status": "horizon_reached" if is_lost and orbit.status == "ok" else orbit.status,
+        "chaotic": orbit.is_chaotic(extent) if len(orbit.errors) else None,
+        "horizon": significant(float(orbit.rows[known, -1])) if is_lost else None,
+        "t": rounded(rows[:, -1], 12),
+        "x": shown[:, 0].tolist(),
+        "y": shown[:, 1].tolist(),
+        "error": rounded(np.minimum(errors, max(LOST, 1.0) * extent), 2),
+    }
+
+
+EXPERIMENT = Experiment(PoincareSectionRequest, run, charts)

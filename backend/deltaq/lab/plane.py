@@ -1,0 +1,162 @@
+"""The plane of a Poincaré section, and what is plotted of the motions that cross it.
+
+Where nothing drives the scene, the plane is a value of a coordinate, say, and all orbits have one energy; a scene that
+something drives periodically is looked at once in each period (stroboscopically).
+Sources: H. Poincaré, Les méthodes nouvelles III (1899), ch. 27; Hénon, Heiles, Astron. J. 69 (1964) 73–79.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import cached_property
+from types import MappingProxyType
+
+import numpy as np
+
+from ..contract.experiments.poincare_section import Direction, PoincareSectionRequest
+from ..errors import InputError, RequestError
+from ..errors import Problem as Mistake
+from ..language.expression import Expression
+from ..language.parser import parse
+from ..language.rewriting import written
+from ..language.tree import Rate, walk
+from ..mechanics.requests import inside
+from ..mechanics.scene import Scene
+from ..model.compiled import Compiled
+from ..model.observables import Observable, Observables
+from ..simulation.problem import Floats, Problem
+from ..simulation.section import Surface
+from .period import clocks, period
+from .subject import Subject
+
+SIGNS: Mapping[Direction, int] = MappingProxyType({"rising": 1, "falling": -1, "both": 0})
+LOST = 1e-7  # of the energy along the scene's own motion: more than rounding takes
+
+
+@dataclass(frozen=True)
+class Section:
+    """A plane h(q, q̇, t) = 0, the direction in which it is crossed, and the functions on both axes."""
+
+    problem: Problem
+    observables: Observables
+    is_driven: bool
+    plane: Expression
+    direction: Direction
+    axes: tuple[Expression, Expression]
+
+    @cached_property
+    def function(self) -> Observable:
+        """h."""
+        return self.observables.observable(self.plane)
+
+    @cached_property
+    def surface(self) -> Surface:
+        """The plane as motions meet it."""
+        turn = math.tau if _turns(self.function, self.problem) else math.inf
+        return Surface(self.function.jet.table, SIGNS[self.direction], turn)
+
+    @cached_property
+    def turns(self) -> tuple[bool, ...]:
+        """Whether what stands on an axis means the same after a turn."""
+        return tuple(_turns(self.observables.observable(each), self.problem) for each in self.axes)
+
+    @property
+    def places(self) -> tuple[int, ...]:
+        """The components of (q, q̇) that stand on an axis by themselves."""
+        scene = self.observables.scene
+        components = _components([coordinate.name for coordinate in scene.free])
+        known = {written(parse(text, scene.names).tree): place for place, text in enumerate(components)}
+        found = (known.get(written(each.tree)) for each in self.axes)
+        return tuple(place for place in found if place is not None)
+
+    @cached_property
+    def _seen(self) -> Compiled:
+        return self.observables.seen(self.axes)
+
+    def at(self, rows: Floats) -> Floats:
+        """x, y and the energy at rows (q, q̇, t), shape (rows, 3); what turns is between −π and π."""
+        found = self._seen.table(rows)
+        for column, turns in enumerate(self.turns):
+            if turns:
+                found[:, column] = np.remainder(found[:, column] + math.pi, math.tau) - math.pi
+        return found
+
+
+def section_of(request: PoincareSectionRequest, subject: Subject, path: Floats) -> Section:
+    """The section that a request means; `path`, rows (q, q̇, t), is the motion from the scene's own start.
+
+    Raises InputError that says what to ask instead: for one degree of freedom that nothing drives, for a motion whose
+    energy is lost, for a plane that is no plane.
+    """
+    scene, problem, observables = subject.scene, subject.problem, Observables(subject.scene)
+    is_driven = observables.depends_on_time
+    if not is_driven and problem.degrees < 2:
+        raise RequestError(Mistake("section-one-degree", "/scene"))
+    if is_driven and request.energy is not None:
+        raise RequestError(Mistake("section-energy-driven", "/energy"))
+    given = request.plane.strip()
+    plane = _parsed(given, scene, "/plane") if given else _usual_plane(scene, path, is_driven=is_driven)
+    function = observables.observable(plane)
+    if function.is_constant:
+        raise RequestError(Mistake("section-plane-constant", "/plane", parameters={"plane": plane.text[:80]}))
+    first, second = _usual_axes(scene, problem, function)
+    axes = [
+        _parsed(asked.strip() or usual, scene, f"/{name}")
+        for name, asked, usual in (("horizontal", request.horizontal, first), ("vertical", request.vertical, second))
+    ]
+    found = Section(problem, observables, is_driven, plane, request.direction, (axes[0], axes[1]))
+    if not is_driven:
+        _require_energy(found, path)
+    return found
+
+
+def _require_energy(section: Section, path: Floats) -> None:
+    """Raises RequestError where the motion does not keep its energy."""
+    energies = section.at(path)[:, 2]
+    scale = float(np.abs(energies).max() + np.ptp(path[:, section.problem.degrees : -1]))
+    lost = float(np.ptp(energies))
+    if lost > LOST * scale:
+        told = {"lost": float(f"{lost:.3g}"), "t": float(f"{path[-1, -1]:.3g}")}
+        raise RequestError(Mistake("section-dissipation", "/scene", parameters=told))
+
+
+def _parsed(text: str, scene: Scene, pointer: str) -> Expression:
+    with inside(pointer):
+        found = parse(text, scene.names)
+        if not found.is_scalar:
+            raise InputError(Mistake("not-scalar"))
+        if found.has_derivatives or any(isinstance(node, Rate) and node.order > 1 for node in walk(found.tree)):
+            raise InputError(Mistake("section-derivative"))
+    return found
+
+
+def _usual_plane(scene: Scene, path: Floats, *, is_driven: bool) -> Expression:
+    """The phase of what drives the scene; else the first coordinate that changes its sign along its own motion."""
+    if is_driven:
+        with inside("/scene"):
+            seconds, phases = period(scene), {written(clock) for clock in clocks(scene)}
+        text = f"sin({phases.pop()})" if len(phases) == 1 else f"sin(2*pi*t/{seconds!r})"
+        return parse(text, scene.names)
+    names = [coordinate.name for coordinate in scene.free]
+    changing = (name for name, values in zip(names, path.T, strict=False) if values.min() < 0.0 < values.max())
+    return parse(next(changing, names[0]), scene.names)
+
+
+def _usual_axes(scene: Scene, problem: Problem, plane: Observable) -> tuple[str, str]:
+    """The first coordinate that does not stand in the plane, and its rate."""
+    names = [coordinate.name for coordinate in scene.free]
+    free = [name for i, name in enumerate(names) if i not in {place % problem.degrees for place in plane.places}]
+    chosen = (free or names)[0]
+    return chosen, f"dot({chosen})"
+
+
+def _components(names: list[str]) -> list[str]:
+    """The components of (q, q̇) as expressions."""
+    return [*names, *(f"dot({name})" for name in names)]
+
+
+def _turns(function: Observable, problem: Problem) -> bool:
+    """Whether a turn of one of the angles changes the value by a turn, and nothing else."""
+    return any(problem.angular[place] for place in function.turning)
