@@ -10,6 +10,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 from dataclasses import dataclass
+from time import monotonic
 
 import numpy as np
 
@@ -29,6 +30,7 @@ LARGEST_STEP = 0.05  # over the span
 TOGETHER = 64  # orbits that are followed side by side
 FACTOR, ROUNDING = 4.0, 2.0**-51  # of the difference of two runs that are both as wrong; of a point by itself
 LOST = 1e-3  # of the picture: a point that is farther from where it belongs stands elsewhere
+PAUSE = 0.5  # seconds between two reports of what has come
 FEW = 20  # points that tell nothing of how errors grow
 GROWS = 1e-12  # of the picture, times the square of the number of points: more than regular motions lose
 MEETS = 1e-9  # |h| over its scale, below which a motion is in the plane all the time
@@ -80,13 +82,16 @@ def followed(
     section: Section, starts: Floats, steps: tuple[Steps, Steps], most: int, cancelled: Flag
 ) -> Iterator[tuple[float, list[Orbit]]]:
     """Orbits from `starts`, shape (orbits, 2n), as they come, with the part of the work that is done."""
-    parts = [_Part(section, starts), _Part(section, starts)]
+    parts, told = [_Part(section, starts), _Part(section, starts)], -math.inf
     for number, (part, way) in enumerate(zip(parts, steps, strict=True)):
         for crossings, standing in follow(section.problem, section.surface, starts, way, most, cancelled):
             part.take(crossings, standing)
+            if monotonic() - told < PAUSE:
+                continue
             done = np.maximum(standing.reached / section.problem.t_end, standing.crossed / most)
             share = float(np.where(standing.outcomes < 0, np.minimum(done, 1.0), 1.0).mean())
             yield 0.5 * (number + share), parts[0].orbits(None)
+            told = monotonic()
     yield 1.0, parts[0].orbits(parts[1])
 
 
@@ -117,8 +122,9 @@ class _Part:
             return []
         again = other._rows() if other else [None] * len(rows)  # noqa: SLF001 - one of its own kind
         found = []
-        for index, (mine, theirs) in enumerate(zip(rows, again, strict=True)):
-            seen, code = self._section.at(mine), int(standing.outcomes[index])
+        every = np.split(self._section.at(np.concatenate(rows)), np.cumsum([len(each) for each in rows])[:-1])
+        for index, (mine, seen, theirs) in enumerate(zip(rows, every, again, strict=True)):
+            code = int(standing.outcomes[index])
             errors = np.zeros(0) if theirs is None else self._errors(mine, seen, theirs)
             status: RungStatus = "ok" if code < 0 else outcome_of(code, {}).status
             found.append(Orbit(self._starts[index], mine, seen, errors, status, float(standing.reach[index])))

@@ -77,6 +77,8 @@ class Section:
 
     def at(self, rows: Floats) -> Floats:
         """x, y and the energy at rows (q, q̇, t), shape (rows, 3); what turns is between −π and π."""
+        if not len(rows):
+            return np.zeros((0, 3))
         found = self._seen.table(rows)
         for column, turns in enumerate(self.turns):
             if turns:
@@ -84,20 +86,28 @@ class Section:
         return found
 
 
-def section_of(request: PoincareSectionRequest, subject: Subject, path: Floats) -> Section:
+def observables_of(request: PoincareSectionRequest, subject: Subject) -> Observables:
+    """What can be seen of the subject.
+
+    Raises RequestError for one degree of freedom that nothing drives, and for an energy where something drives.
+    """
+    found = Observables(subject.scene)
+    if not found.depends_on_time and subject.problem.degrees < 2:
+        raise RequestError(Mistake("section-one-degree", "/scene"))
+    if found.depends_on_time and request.energy is not None:
+        raise RequestError(Mistake("section-energy-driven", "/energy"))
+    return found
+
+
+def section_of(request: PoincareSectionRequest, subject: Subject, observables: Observables, path: Floats) -> Section:
     """The section that a request means; `path`, rows (q, q̇, t), is the motion from the scene's own start.
 
-    Raises InputError that says what to ask instead: for one degree of freedom that nothing drives, for a motion whose
-    energy is lost, for a plane that is no plane.
+    Raises InputError that says what to ask instead: for a motion whose energy is lost, for a plane that is no plane.
     """
-    scene, problem, observables = subject.scene, subject.problem, Observables(subject.scene)
+    scene, problem = subject.scene, subject.problem
     is_driven = observables.depends_on_time
-    if not is_driven and problem.degrees < 2:
-        raise RequestError(Mistake("section-one-degree", "/scene"))
-    if is_driven and request.energy is not None:
-        raise RequestError(Mistake("section-energy-driven", "/energy"))
     given = request.plane.strip()
-    plane = _parsed(given, scene, "/plane") if given else _usual_plane(scene, path, is_driven=is_driven)
+    plane = _parsed(given, scene, "/plane") if given else _usual_plane(scene, problem, path, is_driven=is_driven)
     function = observables.observable(plane)
     if function.is_constant:
         raise RequestError(Mistake("section-plane-constant", "/plane", parameters={"plane": plane.text[:80]}))
@@ -132,16 +142,20 @@ def _parsed(text: str, scene: Scene, pointer: str) -> Expression:
     return found
 
 
-def _usual_plane(scene: Scene, path: Floats, *, is_driven: bool) -> Expression:
-    """The phase of what drives the scene; else the first coordinate that changes its sign along its own motion."""
+def _usual_plane(scene: Scene, problem: Problem, path: Floats, *, is_driven: bool) -> Expression:
+    """The phase of what drives the scene; else the first coordinate that its own motion takes through zero or round."""
     if is_driven:
         with inside("/scene"):
             seconds, phases = period(scene), {written(clock) for clock in clocks(scene)}
         text = f"sin({phases.pop()})" if len(phases) == 1 else f"sin(2*pi*t/{seconds!r})"
         return parse(text, scene.names)
     names = [coordinate.name for coordinate in scene.free]
-    changing = (name for name, values in zip(names, path.T, strict=False) if values.min() < 0.0 < values.max())
-    return parse(next(changing, names[0]), scene.names)
+    crossed = (
+        name
+        for name, values, is_angle in zip(names, path.T, problem.angular, strict=False)
+        if values.min() < 0.0 < values.max() or (is_angle and np.ptp(values) > math.tau)
+    )
+    return parse(next(crossed, names[0]), scene.names)
 
 
 def _usual_axes(scene: Scene, problem: Problem, plane: Observable) -> tuple[str, str]:

@@ -21,7 +21,9 @@ from .plane import Section
 SOLVING = 30  # rounds of Newton's method, and of plane and energy in turn
 SOLVED = 1e-9  # what is left of the plane and of the energy, over their scales
 SIDE, FINE = 21, 61  # points on a side of the lattices by which the box of the starts is sought
-GROWING, FARTHEST = 60, 1e3  # rounds, and over what the scene's own motion covers
+ROUNDS = 40  # of looking for the least energy, and of letting a box grow
+FARTHEST, OPEN = 1e3, 2.0  # over what the scene's own motion covers; and where the energy sets no bound
+BESIDE = 1.5  # the same, for where the least energy is sought
 LEAST = 1e-3  # of a box beside what its coordinate is at the start
 
 
@@ -129,17 +131,17 @@ class Grid:
 
     @cached_property
     def lowest(self) -> tuple[Floats, float]:
-        """Where in the plane the least energy is needed, and that energy: a lattice that moves and shrinks."""
-        box = Box(self.own[list(self.across)], np.maximum(self.covered.half, LEAST))
-        least = math.inf
-        for _ in range(GROWING):
-            points = box.lattice(SIDE)
+        """Where near the scene's own motion the least energy is needed, and that energy: a lattice that shrinks."""
+        whole = Box(self.covered.middle, BESIDE * self.covered.half)
+        middle, least, half = whole.middle, math.inf, whole.half
+        for _ in range(ROUNDS):
+            points = np.clip(Box(middle, half).lattice(SIDE), whole.middle - whole.half, whole.middle + whole.half)
             _, needed = self.solved(points, math.inf)
             best = int(np.argmin(needed))
-            least = min(least, float(needed[best]))
-            inner = (np.abs(points[best] - box.middle) < 0.9 * box.half).all()
-            box = Box(points[best] if math.isfinite(needed[best]) else box.middle, box.half * (0.4 if inner else 1.0))
-        return box.middle, least
+            if needed[best] < least:
+                middle, least = points[best], float(needed[best])
+            half = 0.5 * half
+        return middle, least
 
     def allowed(self, energy: float) -> Box:
         """The rectangle around what the energy allows, as far as it hangs together with where the least is needed."""
@@ -148,12 +150,13 @@ class Grid:
             return Box(middle, np.zeros(2))
         limit = np.where(self._is_angle, math.pi, FARTHEST * np.maximum(self.covered.half, 1.0))
         box = Box(middle, np.minimum(1e-2 * self.covered.half, limit))
-        for _ in range(GROWING):
+        for _ in range(ROUNDS):
             grows = self._is_open(box, energy) & (box.half < limit)
             if not grows.any():
                 break
             box = Box(middle, np.minimum(np.where(grows, 1.5 * box.half, box.half), limit))
-        return self._shrunk(box, energy)
+        is_bounded = self._is_angle | (box.half < limit)
+        return self._shrunk(Box(middle, np.where(is_bounded, box.half, OPEN * self.covered.half)), energy)
 
     def _is_open(self, box: Box, energy: float) -> Truths:
         """Whether the energy allows anything on the sides across and upwards."""

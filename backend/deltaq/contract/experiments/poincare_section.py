@@ -47,8 +47,8 @@ class PoincareSectionAnswer(ExperimentAnswer):
     forbidden: int = Field(description="starts of the grid that would need more energy")
     unsolved: int = Field(description="starts of the grid for which no state in the plane was found")
     missed: int = Field(description="orbits that never cross the plane")
-    accuracy: float | None = Field(description="the largest error of a point before the horizon of its orbit")
-    kept: float | None = Field(description="how far the energy of such a point is from that wanted, in parts of it")
+    sharp: int = Field(description="points whose error is at most 1e-10; 0 as long as it is not known")
+    kept: float | None = Field(description="how far the energy before the horizons is from that wanted, in parts of it")
     regular: float | None = Field(description="the part of the grid whose orbits are not chaotic")
     extent: float = Field(description="the larger side of the picture")
 
@@ -59,7 +59,7 @@ class PoincareSectionRequest(ExperimentRequest):
     experiment: ClassVar[str] = "poincare-section"
     answer: ClassVar[type[ExperimentAnswer]] = PoincareSectionAnswer
 
-    t_end: float = Field(300.0, ge=SHORTEST, le=LONGEST, description="seconds of each motion, at most")
+    t_end: float = Field(200.0, ge=SHORTEST, le=LONGEST, description="seconds of each motion, at most")
     plane: Asked = Field(
         "",
         description="an expression of coordinates, rates (dot(q)) and t that is zero in the plane; empty: the first "
@@ -71,7 +71,7 @@ class PoincareSectionRequest(ExperimentRequest):
     vertical: Asked = Field("", description="an expression for the second axis; empty: the rate of that coordinate")
     energy: float | None = Field(None, description="of all starts; if empty, that of the scene's own start")
     count: int = Field(7, ge=0, le=64, description="starts on a side of the grid, besides the scene's own start")
-    crossings: int = Field(150, ge=1, le=20_000, description="points of an orbit, at most")
+    crossings: int = Field(100, ge=1, le=20_000, description="points of an orbit, at most")
     skip: int = Field(0, ge=0, le=10_000, description="first points of each orbit that are left out: a transient")
     beyond: bool = Field(default=True, description="whether points after the horizon of an orbit are shown, marked")
 

@@ -89,8 +89,8 @@ def _told(result: Result, say: Say) -> Iterator[str]:
     for name in ("forbidden", "unsolved", "missed"):
         if result[name]:
             yield say(f"{key}.{name}", count=result[name])
-    if result["accuracy"] is not None:
-        yield say(f"{key}.known", error=result["accuracy"])
+    if result["sharp"]:
+        yield say(f"{key}.known", sharp=result["sharp"])
         if result["kept"] is not None:
             yield say(f"{key}.energy-kept", error=result["kept"])
     chaotic = sum(orbit["chaotic"] is True for orbit in orbits)

@@ -21,12 +21,13 @@ from ...simulation.section import path_of
 from ..charts.poincare_section import charts
 from ..experiment import Experiment
 from ..orbits import LOST, MEETS, TOGETHER, Orbit, followed, steps_of
-from ..plane import Section, section_of
+from ..plane import Section, observables_of, section_of
 from ..report import Document, Report, rounded, significant
 from ..starts import Grid, Starts
 from ..subject import Subject, free_subject_of
 
 TOTAL = 1000
+SHARP = 1e-10  # the error up to which a point is said to be known well
 LONGEST_PATH = 2000  # steps of the scene's own motion that are looked at before anything else
 
 
@@ -61,9 +62,9 @@ def run(request: PoincareSectionRequest) -> Iterator[Report]:
 
 
 def _asked(request: PoincareSectionRequest, subject: Subject, cancelled: np.ndarray) -> _Asked:
-    problem = subject.problem
+    problem, observables = subject.problem, observables_of(request, subject)
     path = path_of(problem, steps_of(problem, is_driven=False)[0], LONGEST_PATH, cancelled)
-    section = section_of(request, subject, path)
+    section = section_of(request, subject, observables, path)
     grid = Grid(section, path)
     own = grid.own
     found = float(grid.energy_at(own[None, :])[0])
@@ -112,17 +113,11 @@ def _told(asked: _Asked, orbits: Sequence[Orbit]) -> Document:
         "forbidden": asked.grid.forbidden,
         "unsolved": asked.grid.unsolved,
         "missed": sum(not len(each) for each in seen),
-        "accuracy": _largest(np.concatenate([np.zeros(0), *errors])),
+        "sharp": int((np.concatenate([np.zeros(0), *errors]) <= SHARP).sum()),
         "kept": _kept(asked.energy, np.concatenate([np.zeros((0, 3)), *trusted])[:, 2]),
         "regular": significant(clear.count(False) / len(clear), 3) if clear and not section.is_driven else None,
         "extent": significant(extent),
     }
-
-
-def _largest(errors: Floats) -> float | None:
-    """The largest; of single points that graze the plane it is not known."""
-    known = errors[np.isfinite(errors)]
-    return significant(float(known.max()), 2) if len(known) else None
 
 
 def _kept(energy: float | None, found: Floats) -> float | None:
