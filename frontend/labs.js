@@ -17,6 +17,7 @@ import {
 import { experiment, file } from "./model/labs/stream.js";
 import { createWatch, motionOf, written } from "./model/labs/watch.js";
 import { asTyped, completed, documentIn, fragmentOf, OWN, readDraft } from "./model/own.js";
+import { writeChanges } from "./model/values.js";
 import { createStore, mover } from "./model/store.js";
 import { caveatsOf } from "./model/trajectory.js";
 import { HOME, readPlace, startLanguage, writePlace } from "./model/url.js";
@@ -46,6 +47,7 @@ const store = createStore({
   cursor: /** @type {import("./view/labs/page.js").Cursor | null} */ (null),
 });
 const { get, set } = store;
+let ownFragment = "";
 let own = /** @type {import("./model/own.js").SceneDocument | null} */ (null);
 
 const move = mover(store);
@@ -80,21 +82,32 @@ const motion = createMotion(root, () => still.matches);
 const charts = createCharts(root, pressed, () => update());
 const watching = createWatch(api);
 
-/** @param {Chart} chart @param {number} x @param {number} y */
-function pressed(chart, x, y) {
+/** @param {Chart} chart @param {number} x @param {number} y @param {number} [curve]  the number of what was pressed */
+function pressed(chart, x, y, curve = 0) {
+  const orbit = chart.data[curve]?.meta?.initial;
+  if (orbit) return watch({ initial: orbit }, sceneFrom(orbit));
   const map = chart.data.find((trace) => trace.meta?.role === "map" || trace.meta?.role === "flips")?.meta;
   if (map) watch(pointOf(bench.get().question, map, x, y));
 }
 
-/** Simulates and plays what a chart points at. @param {import("./model/labs/watch.js").Wish} wish */
-function watch(wish) {
+/** Where an orbit is shown as a motion of its scene. @param {import("./model/values.js").Changes["initial"]} initial */
+function sceneFrom(initial) {
+  const { scene, parameters } = bench.get().question;
+  const set = writeChanges({ parameters, initial }, 12);
+  const { lang, theme } = get().place;
+  const place = writePlace({ ...HOME, lang, theme, set, ...(scene === OWN ? {} : { scene }) });
+  return `/scene${place}${scene === OWN ? ownFragment : ""}`;
+}
+
+/** Simulates and plays what a chart points at; at the address it is open to all tools. @param {import("./model/labs/watch.js").Wish} wish @param {string} [address] */
+function watch(wish, address = "") {
   const { question, scene } = bench.get();
   if (!scene) return;
   const { method, step = 0 } = wish;
   const title = method
     ? speech()("labs.played-method", { method: methodTitle(method), step: step.toPrecision(3) })
     : speech()("labs.played-point", { values: written(wish) });
-  const told = (/** @type {string} */ status) => set({ play: { title, status, address: "" } });
+  const told = (/** @type {string} */ status) => set({ play: { title, status, address } });
   void watching.ask(
     motionOf(question, wish, documentOf(question.scene), lang()),
     (trajectory) => {
@@ -192,6 +205,7 @@ function update() {
         fetchFile: (accept) => void fetchFile(accept),
         link,
         open: (scene) => void open(scene),
+        sceneFrom,
         watch,
         turn: (patch) => set({ dial: { ...get().dial, ...patch } }),
         cursor: get().cursor,
@@ -238,6 +252,7 @@ const starting = {
 
 async function start() {
   own = (await documentIn(location.hash)) ?? readDraft(keeper())?.document ?? null;
+  if (own) ownFragment = await fragmentOf(own);
   store.subscribe(update);
   bench.subscribe(update);
   dark.addEventListener("change", update);

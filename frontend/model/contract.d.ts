@@ -186,6 +186,26 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/v1/experiments/poincare-section": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Where motions cross a plane in phase space
+         * @description Where motions cross a plane in phase space: a grid of starts at one energy, or the phases of a drive.
+         */
+        post: operations["poincare_section"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/v1/experiments/stability": {
         parameters: {
             query?: never;
@@ -1168,7 +1188,7 @@ export interface components {
         };
         /**
          * Begin
-         * @description Value and rate of a coordinate where the motion began.
+         * @description Value and rate of a coordinate where a motion began.
          */
         Begin: {
             /** Value */
@@ -4812,6 +4832,54 @@ export interface components {
             choices: string[];
         };
         /**
+         * Orbit
+         * @description A motion by the points at which it crosses the plane, in their order.
+         */
+        Orbit: {
+            /**
+             * Initial
+             * @description where it begins, by free coordinate
+             */
+            initial: {
+                [key: string]: components["schemas"]["Begin"];
+            };
+            /**
+             * Own
+             * @description whether that is the start of the scene
+             */
+            own: boolean;
+            /**
+             * Status
+             * @description ok, horizon_reached, or how the motion ended before its time
+             * @enum {string}
+             */
+            status: "ok" | "event" | "stopped" | "cancelled" | "step_limit" | "singular_mass_matrix" | "diverged" | "newton_failed" | "stiff" | "unresolved" | "step_blind" | "horizon_reached" | "tolerance_missed" | "guide_jumps" | "singular_constraints";
+            /**
+             * Chaotic
+             * @description whether it loses its digits exponentially; null: too few points to tell
+             */
+            chaotic: boolean | null;
+            /**
+             * Horizon
+             * @description seconds after which its points are no longer those of this motion
+             */
+            horizon: number | null;
+            /**
+             * T
+             * @description seconds
+             */
+            t: number[];
+            /** X */
+            x: number[];
+            /** Y */
+            y: number[];
+            /**
+             * Error
+             * @description of each point: absolute below 1, relative above; empty at first
+             */
+            error: number[];
+        };
+        /**
          * OrderOfConvergence
          * @description p of error ∝ step^p.
          */
@@ -4864,6 +4932,254 @@ export interface components {
             kind: "momentum";
             /** Coordinate */
             coordinate: string;
+        };
+        /**
+         * PoincareSectionAnswer
+         * @description Orbits by their points in the plane, with what is known of their accuracy.
+         */
+        PoincareSectionAnswer: {
+            /**
+             * Experiment
+             * @example work-precision
+             */
+            experiment: string;
+            /** Scene */
+            scene: string;
+            /**
+             * Title
+             * @description of the scene, by language
+             */
+            title: {
+                [key: string]: string;
+            };
+            /**
+             * Names
+             * @description how what the scene names is written; words by language
+             */
+            names: {
+                [key: string]: string | {
+                    [key: string]: string;
+                };
+            };
+            /**
+             * T End
+             * @description seconds of motion
+             */
+            t_end: number;
+            /**
+             * Parameters
+             * @description their values
+             */
+            parameters: {
+                [key: string]: number;
+            };
+            /**
+             * Initial
+             * @description where the motion began, by free coordinate
+             */
+            initial: {
+                [key: string]: components["schemas"]["Begin"];
+            };
+            /** Charts */
+            charts: components["schemas"]["Chart"][];
+            /** @description where the answer has times */
+            taken?: components["schemas"]["Measured"] | null;
+            /**
+             * Plane
+             * @description the expression that is zero there
+             * @example phi1
+             */
+            plane: string;
+            /**
+             * Direction
+             * @enum {string}
+             */
+            direction: "rising" | "falling" | "both";
+            /**
+             * Horizontal
+             * @description the expression on the first axis
+             * @example phi2
+             */
+            horizontal: string;
+            /**
+             * Vertical
+             * @description the expression on the second axis
+             * @example dot(phi2)
+             */
+            vertical: string;
+            /**
+             * Driven
+             * @description whether something drives the scene: then no energy is kept
+             */
+            driven: boolean;
+            /**
+             * Energy
+             * @description of all orbits, where it is kept
+             */
+            energy: number | null;
+            /** Orbits */
+            orbits: components["schemas"]["Orbit"][];
+            /**
+             * Points
+             * @description of all orbits
+             */
+            points: number;
+            /**
+             * Forbidden
+             * @description starts of the grid that would need more energy
+             */
+            forbidden: number;
+            /**
+             * Unsolved
+             * @description starts of the grid for which no state in the plane was found
+             */
+            unsolved: number;
+            /**
+             * Missed
+             * @description orbits that never cross the plane
+             */
+            missed: number;
+            /**
+             * Sharp
+             * @description points whose error is at most 1e-10; 0 as long as it is not known
+             */
+            sharp: number;
+            /**
+             * Kept
+             * @description how far the energy before the horizons is from that wanted, in parts of it
+             */
+            kept: number | null;
+            /**
+             * Regular
+             * @description the part of the grid whose orbits are not chaotic
+             */
+            regular: number | null;
+            /**
+             * Extent
+             * @description the larger side of the picture
+             */
+            extent: number;
+        };
+        /**
+         * PoincareSectionRequest
+         * @description Where motions cross a plane in phase space: a grid of starts at one energy, or the phases of a drive.
+         * @example {
+         *       "count": 2,
+         *       "crossings": 10,
+         *       "initial": {
+         *         "phi1": {
+         *           "value": 0.4
+         *         },
+         *         "phi2": {
+         *           "value": 0.4
+         *         }
+         *       },
+         *       "scene": "double-pendulum",
+         *       "t_end": 20
+         *     }
+         * @example {
+         *       "count": 2,
+         *       "crossings": 10,
+         *       "scene": "kapitza",
+         *       "t_end": 1
+         *     }
+         */
+        PoincareSectionRequest: {
+            /**
+             * @description a built-in scene by its id, or a scene document of format 1
+             * @example elastic-pendulum
+             */
+            scene: components["schemas"]["Scene"];
+            /**
+             * Guides
+             * @description coordinates to be made functions of time
+             */
+            guides?: components["schemas"]["GuideChange"][];
+            /**
+             * Freeze
+             * @description coordinates to be held constant
+             * @example []
+             */
+            freeze?: string[];
+            /**
+             * Parameters
+             * @description values of parameters
+             * @example {
+             *       "l": 0.8
+             *     }
+             */
+            parameters?: components["schemas"]["PoincareSectionRequestParameters"];
+            /**
+             * Initial
+             * @description where the motion begins, by coordinate
+             * @example {
+             *       "phi": {
+             *         "value": 0.5
+             *       }
+             *     }
+             */
+            initial?: components["schemas"]["PoincareSectionRequestInitial"];
+            /**
+             * T End
+             * @description seconds of each motion, at most
+             */
+            t_end?: number;
+            /**
+             * Lang
+             * @description language of the texts; else Accept-Language decides
+             */
+            lang?: ("de" | "en") | null;
+            /**
+             * Fresh
+             * @description whether to measure anew what was measured before, as Cache-Control: no-cache does
+             */
+            fresh?: boolean;
+            /**
+             * Plane
+             * @description an expression of coordinates, rates (dot(q)) and t that is zero in the plane; empty: the first coordinate that changes its sign, or the phase of the drive
+             * @example phi1
+             */
+            plane?: string;
+            /**
+             * Direction
+             * @description which way the expression goes through zero
+             */
+            direction?: components["schemas"]["PoincareSectionRequestDirection"];
+            /**
+             * Horizontal
+             * @description an expression for the first axis; empty: the next coordinate
+             */
+            horizontal?: string;
+            /**
+             * Vertical
+             * @description an expression for the second axis; empty: the rate of that coordinate
+             */
+            vertical?: string;
+            /**
+             * Energy
+             * @description of all starts; if empty, that of the scene's own start
+             */
+            energy?: number | null;
+            /**
+             * Count
+             * @description starts on a side of the grid, besides the scene's own start
+             */
+            count?: number;
+            /**
+             * Crossings
+             * @description points of an orbit, at most
+             */
+            crossings?: number;
+            /**
+             * Skip
+             * @description first points of each orbit that are left out: a transient
+             */
+            skip?: number;
+            /**
+             * Beyond
+             * @description whether points after the horizon of an orbit are shown, marked
+             */
+            beyond?: boolean;
         };
         /**
          * PointScheme
@@ -7625,7 +7941,7 @@ export interface components {
         TraceMeaning: {
             /**
              * Role
-             * @description eigenvalues, map, flips, or without-result
+             * @description eigenvalues, map, flips, orbit, or without-result
              * @example eigenvalues
              */
             role: string;
@@ -7639,6 +7955,13 @@ export interface components {
              * @description likewise
              */
             y?: string | null;
+            /**
+             * Initial
+             * @description of an orbit: where it begins, by coordinate
+             */
+            initial?: {
+                [key: string]: components["schemas"]["Begin"];
+            } | null;
         };
         /**
          * TransitionAnswer
@@ -8268,6 +8591,26 @@ export interface components {
             [key: string]: components["schemas"]["InitialValue"];
         };
         /**
+         * PoincareSectionRequestParameters
+         * @default {}
+         */
+        PoincareSectionRequestParameters: {
+            [key: string]: number;
+        };
+        /**
+         * PoincareSectionRequestInitial
+         * @default {}
+         */
+        PoincareSectionRequestInitial: {
+            [key: string]: components["schemas"]["InitialValue"];
+        };
+        /**
+         * PoincareSectionRequestDirection
+         * @default rising
+         * @enum {string}
+         */
+        PoincareSectionRequestDirection: "rising" | "falling" | "both";
+        /**
          * StabilityRequestParameters
          * @default {}
          */
@@ -8702,6 +9045,36 @@ export interface operations {
                 };
                 content: {
                     "application/json": components["schemas"]["FidelityAnswer"];
+                    "text/event-stream": string;
+                    "text/html": string;
+                    "text/csv": string;
+                };
+            };
+        };
+    };
+    poincare_section: {
+        parameters: {
+            query?: never;
+            header?: {
+                /** @description `no-cache` measures anew what was measured before */
+                "Cache-Control"?: string;
+            };
+            path?: never;
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["PoincareSectionRequest"];
+            };
+        };
+        responses: {
+            /** @description the answer */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["PoincareSectionAnswer"];
                     "text/event-stream": string;
                     "text/html": string;
                     "text/csv": string;

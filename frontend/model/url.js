@@ -54,6 +54,8 @@ const SHOWN = ["figure", "derivation"];
 /** How many seconds of the motion pass in one of the viewer's. */
 export const SPEEDS = [0.1, 0.25, 0.5, 1, 2, 4];
 const LONGEST = 100;
+/** Letters of changed values: those of a dozen numbers in all their digits. */
+const LONGEST_SET = 400;
 const MOST = 99;
 
 /**
@@ -80,7 +82,7 @@ export function readPlace(query) {
     pace: oneOf(PACES, given.get("pace"), HOME.pace),
     beside: oneOf(BESIDES, given.get("beside"), HOME.beside),
     vary: slug(given.get("vary")),
-    set: slug(given.get("set")),
+    set: slug(given.get("set"), LONGEST_SET),
     at: Math.max(0, Math.min(LONGEST, Number(given.get("at")) || 0)),
     with: slug(given.get("with")),
     runs: slug(given.get("runs")),
@@ -122,9 +124,9 @@ export function oneOf(allowed, value, otherwise) {
   return allowed.find((one) => one === value) ?? otherwise;
 }
 
-/** @param {string | null} value */
-function slug(value) {
-  return value && /^[\w:.,@+-]{1,100}$/.test(value) ? value : "";
+/** @param {string | null} value @param {number} [longest] */
+function slug(value, longest = 100) {
+  return value && value.length <= longest && /^[\w:.,@+-]+$/.test(value) ? value : "";
 }
 
 /**

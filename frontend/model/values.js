@@ -118,9 +118,10 @@ export function changed(scene, changes, moved, value) {
   return { ...changes, initial: { ...changes.initial, [moved.name]: { ...before, [moved.field]: held } } };
 }
 
-/** Changes as the address has them: "l:0.5" for a parameter, "phi:0.6:0" for value and rate of a coordinate. @param {Changes} changes */
-export function writeChanges({ initial, parameters }) {
-  const numbers = (/** @type {number[]} */ ...values) => values.map((value) => Number(value.toPrecision(6))).join(":");
+/** Changes as the address has them: "l:0.5" for a parameter, "phi:0.6:0" for value and rate of a coordinate. @param {Changes} changes @param {number} [digits] */
+export function writeChanges({ initial, parameters }, digits = 6) {
+  const numbers = (/** @type {number[]} */ ...values) =>
+    values.map((value) => Number(value.toPrecision(digits))).join(":");
   return [
     ...Object.entries(parameters).map(([name, value]) => `${name}:${numbers(value)}`),
     ...Object.entries(initial).map(([name, { value, rate }]) => `${name}:${numbers(value, rate)}`),

@@ -12,7 +12,7 @@ from pydantic import Field
 from ..packages import classes_of
 from ..vocabulary import TriedStatus
 from .base import Answer, AskedLanguage, Names, SceneWithInitialValues, examples
-from .figure import Chart
+from .figure import Begin, Chart
 
 LONGEST = 1000.0  # seconds of motion
 SHORTEST = 1e-6  # seconds; below it differences of times are lost in rounding
@@ -25,13 +25,6 @@ class Measured(Answer):
     load: float | None = Field(description="programs that wanted to run, mean of one minute, per processor")
     repetitions: int = Field(description="how often a run was measured at most")
     processors: int
-
-
-class Begin(Answer):
-    """Value and rate of a coordinate where the motion began."""
-
-    value: float
-    rate: float
 
 
 class ExperimentAnswer(Answer):

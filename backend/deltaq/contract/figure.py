@@ -14,6 +14,13 @@ from .base import Answer
 Numbers = tuple[float | None, ...]
 
 
+class Begin(Answer):
+    """Value and rate of a coordinate where a motion began."""
+
+    value: float
+    rate: float
+
+
 class LineStyle(Answer):
     """How a line, or the border of a symbol, is drawn."""
 
@@ -61,9 +68,10 @@ class ErrorBars(Answer):
 class TraceMeaning(Answer):
     """What a trace shows that its look does not tell."""
 
-    role: str = Field(description="eigenvalues, map, flips, or without-result", examples=["eigenvalues"])
+    role: str = Field(description="eigenvalues, map, flips, orbit, or without-result", examples=["eigenvalues"])
     x: str | None = Field(None, description="of a map: whose values stand on its axis")
     y: str | None = Field(None, description="likewise")
+    initial: dict[str, Begin] | None = Field(None, description="of an orbit: where it begins, by coordinate")
 
 
 class Trace(Answer):

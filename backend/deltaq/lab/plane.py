@@ -99,13 +99,12 @@ def observables_of(request: PoincareSectionRequest, subject: Subject) -> Observa
     return found
 
 
-def section_of(request: PoincareSectionRequest, subject: Subject, observables: Observables, path: Floats) -> Section:
+def section_of(request: PoincareSectionRequest, problem: Problem, observables: Observables, path: Floats) -> Section:
     """The section that a request means; `path`, rows (q, q̇, t), is the motion from the scene's own start.
 
     Raises InputError that says what to ask instead: for a motion whose energy is lost, for a plane that is no plane.
     """
-    scene, problem = subject.scene, subject.problem
-    is_driven = observables.depends_on_time
+    scene, is_driven = observables.scene, observables.depends_on_time
     given = request.plane.strip()
     plane = _parsed(given, scene, "/plane") if given else _usual_plane(scene, problem, path, is_driven=is_driven)
     function = observables.observable(plane)

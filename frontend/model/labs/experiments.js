@@ -4,6 +4,7 @@ import chaos from "./experiments/chaos.js";
 import convergence from "./experiments/convergence.js";
 import energyDrift from "./experiments/energy-drift.js";
 import fidelity from "./experiments/fidelity.js";
+import poincareSection from "./experiments/poincare-section.js";
 import stabilityMap from "./experiments/stability-map.js";
 import stability from "./experiments/stability.js";
 import workPrecision from "./experiments/work-precision.js";
@@ -20,6 +21,7 @@ const EXPERIMENTS = {
   stability,
   "stability-map": stabilityMap,
   chaos,
+  "poincare-section": poincareSection,
   fidelity,
 };
 

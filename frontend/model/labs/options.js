@@ -11,7 +11,7 @@
  * own, so is what is shown for it. What is `ofScene` means nothing for another scene, and `usualIn` is usual in one, where
  * nothing is for all.
  * @template {Answer} [A=Answer]
- * @typedef {{kind: "number" | "tick" | "choice" | "parameter" | "side", name: string, key: string, label: string, usual: A,
+ * @typedef {{kind: "number" | "tick" | "choice" | "text" | "parameter" | "side", name: string, key: string, label: string, usual: A,
  *   read(text: string): A, write(answer: A): string, asked(answer: A): object, choices?: readonly (string | number)[],
  *   field?: string, scale?: number, range?: {shown: number | "", min?: number, max?: number}, description?: string, ofScene?: boolean, usualIn?(scene: Scene): A}} Option
  */
@@ -99,6 +99,33 @@ export function optionOf(lab, field) {
   const range = { shown: shownFor(usual), min: field.min ?? undefined, max: field.max ?? undefined };
   return { kind, name, key: name, field: name, range, read, write, ...told };
 }
+
+/** A number of any sign that the scene knows, until somebody gives another one. @param {string} name @returns {Option<number | null>} */
+export const value = (name) => ({
+  kind: "number",
+  name,
+  field: name,
+  key: name,
+  label: name,
+  usual: null,
+  ofScene: true,
+  read: (text) => (text !== "" && Number.isFinite(Number(text)) ? Number(text) : null),
+  write: (answer) => (answer === null ? "" : String(answer)),
+  asked: (answer) => (answer === null ? {} : { [name]: answer }),
+});
+
+/** An expression in the scene's names, or none. @param {string} name @returns {Option<string>} */
+export const expression = (name) => ({
+  kind: "text",
+  name,
+  key: name,
+  label: name,
+  usual: "",
+  ofScene: true,
+  read: (text) => text,
+  write: (answer) => answer,
+  asked: (answer) => (answer ? { [name]: answer } : {}),
+});
 
 /** A parameter of the scene, or none. @param {string} name @returns {Option<string>} */
 export const parameter = (name) => ({

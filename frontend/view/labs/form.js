@@ -101,6 +101,18 @@ function choice(view, option) {
   );
 }
 
+/** An expression as it is typed. @param {View} view @param {Option} option */
+function written(view, option) {
+  const { bench, benches, t } = view;
+  const { name } = option;
+  return field(
+    view,
+    option,
+    html`<input type="text" spellcheck="false" autocapitalize="off" autocomplete="off" maxlength="2000" placeholder=${t(`labs.${name}-usual`)}
+      .value=${live(String(bench.question[name] ?? ""))} @change=${(/** @type {Event} */ e) => benches.edit({ [name]: textOf(e).trim() })}>`,
+  );
+}
+
 /** @param {View} view */
 const parametersOf = ({ bench }) => bench.scene?.parameters ?? [];
 /** @param {import("../../model/types.js").Parameter[]} parameters @param {string} chosen */
@@ -143,7 +155,7 @@ function side(view, { name, label }) {
 }
 
 /** How each kind of option is asked. @type {Record<Option["kind"], (view: View, option: Option) => unknown>} */
-const CONTROLS = { number: quantity, tick, choice, parameter, side };
+const CONTROLS = { number: quantity, tick, choice, text: written, parameter, side };
 
 /** The scene's numbers, as changed for this measurement. @param {View} view @param {Scene} scene */
 function values(view, scene) {

@@ -10,6 +10,7 @@ import { titled, top } from "../top.js";
 import { canvas } from "./cursor.js";
 import { form } from "./form.js";
 import { motion } from "./motion.js";
+import { orbits } from "./orbits.js";
 import { rungs } from "./rungs.js";
 import { failures, slider } from "./stability.js";
 import { tolerance } from "./tolerance.js";
@@ -21,7 +22,8 @@ import { tolerance } from "./tolerance.js";
  *   labs: string[], known: import("../../model/labs/experiments.js").Experiments, t: import("../page.js").View["t"], methodTitle: (id: string) => string, charts: Chart[], dial: Dial, turn: (patch: Partial<Dial>) => void,
  *   save: (chart: Chart, format: "png" | "svg") => void, fetchFile: (accept: string) => void,
  *   play: Play | null, watch: (patch: object) => void, link: (patch: object) => string, open: (scene: import("../../model/own.js").SceneDocument) => void,
- *   cursor: Cursor | null, point: (cursor: Cursor) => void, press: (chart: Chart, x: number, y: number) => void}} View
+ *   sceneFrom: (initial: import("../../model/values.js").Changes["initial"]) => string,
+ *   cursor: Cursor | null, point: (cursor: Cursor) => void, press: (chart: Chart, x: number, y: number, curve?: number) => void}} View
  * @typedef {import("./cursor.js").Cursor} Cursor
  * @typedef {{tolerance: number, step: number}} Dial  where the sliders stand: wanted error, step h in seconds
  * @typedef {{title: string, address: string, status: string}} Play
@@ -30,7 +32,7 @@ import { tolerance } from "./tolerance.js";
 /** What stands above and below the charts of a lab. @type {Record<string, (view: View) => unknown>} */
 const ABOVE = { "work-precision": tolerance, stability: slider };
 /** @type {Record<string, (view: View) => unknown>} */
-const BELOW = { stability: failures, fidelity: rungs };
+const BELOW = { stability: failures, fidelity: rungs, "poincare-section": orbits };
 
 /** @param {View} view */
 export function page(view) {

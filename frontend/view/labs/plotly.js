@@ -7,14 +7,14 @@ import { script } from "../bring.js";
 import { paletteOf } from "../palette.js";
 
 /** @typedef {import("../../model/labs/chart.js").Chart} Chart */
-/** @typedef {HTMLElement & {on: (event: "plotly_click", hear: (event: {points: {x: number, y: number}[]}) => void) => void}} Drawn  an element that Plotly draws into */
+/** @typedef {HTMLElement & {on: (event: "plotly_click", hear: (event: {points: {x: number, y: number, curveNumber: number}[]}) => void) => void}} Drawn  an element that Plotly draws into */
 
 /** Named in the import map, so that its address carries the version of the libraries. */
 const SOURCE = import.meta.resolve("plotly-with-maps");
 const CONFIG = { displayModeBar: false, displaylogo: false, responsive: false };
 const FILE = { width: 1200, height: 800, scale: 2 };
 
-/** @param {HTMLElement} root @param {(chart: Chart, x: number, y: number) => void} press  a place on a map was pressed @param {() => void} changed  Plotly is there, or it could not be had */
+/** @param {HTMLElement} root @param {(chart: Chart, x: number, y: number, curve: number) => void} press  a place on a map or a curve was pressed @param {() => void} changed  Plotly is there, or it could not be had */
 export function createCharts(root, press, changed) {
   /** What each canvas shows, so that nothing is drawn twice. @type {WeakMap<HTMLElement, string>} */
   const shown = new WeakMap();
@@ -34,8 +34,8 @@ export function createCharts(root, press, changed) {
     await globalThis.Plotly.react(canvas, data, layout, CONFIG);
     drawn.set(canvas, chart);
     if (first)
-      /** @type {Drawn} */ (canvas).on("plotly_click", ({ points: [{ x, y }] }) =>
-        press(drawn.get(canvas) ?? chart, x, y),
+      /** @type {Drawn} */ (canvas).on("plotly_click", ({ points: [{ x, y, curveNumber }] }) =>
+        press(drawn.get(canvas) ?? chart, x, y, curveNumber),
       );
   }
 

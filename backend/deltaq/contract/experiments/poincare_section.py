@@ -9,7 +9,8 @@ from pydantic_core import PydanticCustomError
 
 from ...vocabulary import Status
 from ..base import Answer, examples
-from ..experiment import SHORTEST, Begin, ExperimentAnswer, ExperimentRequest
+from ..experiment import SHORTEST, ExperimentAnswer, ExperimentRequest
+from ..figure import Begin
 
 LONGEST = 10_000.0  # seconds of one motion
 MOST_SECONDS = 200_000.0  # of all motions together

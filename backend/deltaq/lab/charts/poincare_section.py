@@ -84,7 +84,7 @@ def _told(result: Result, say: Say) -> Iterator[str]:
     """What was measured, what was left out, and how well it is known, as sentences."""
     key = "labs.poincare-section"
     orbits, told = result["orbits"], {name: result[name] for name in ("plane", "points", "energy", "regular")}
-    direction = say(f"{key}.direction-{result['direction']}")
+    direction = say(f"labs.direction-{result['direction']}")
     yield say(f"{key}.{'driven' if result['driven'] else 'kept'}", **told, orbits=len(orbits), direction=direction)
     for name in ("forbidden", "unsolved", "missed"):
         if result[name]:

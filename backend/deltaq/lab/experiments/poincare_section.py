@@ -24,9 +24,10 @@ from ..orbits import LOST, MEETS, TOGETHER, Orbit, followed, steps_of
 from ..plane import Section, observables_of, section_of
 from ..report import Document, Report, rounded, significant
 from ..starts import Grid, Starts
-from ..subject import Subject, free_subject_of
+from ..subject import Subject, bounded, free_subject_of
 
 TOTAL = 1000
+MOST_STEPS = 20_000  # of one orbit: one that comes close to a pole would keep all others waiting
 SHARP = 1e-10  # the error up to which a point is said to be known well
 LONGEST_PATH = 2000  # steps of the scene's own motion that are looked at before anything else
 
@@ -49,7 +50,7 @@ def run(request: PoincareSectionRequest) -> Iterator[Report]:
     """Orbits as they come, some dozens side by side; then what is known of them."""
     subject, cancelled = free_subject_of(request), np.zeros(1, dtype=np.int64)
     asked, orbits = _asked(request, subject, cancelled), list[Orbit]()
-    steps = steps_of(subject.problem, is_driven=asked.section.is_driven)
+    steps = steps_of(asked.section.problem, is_driven=asked.section.is_driven)
     yield Report(0, TOTAL, _told(asked, []))
     for first in range(0, len(asked.states), TOGETHER):
         some = asked.states[first : first + TOGETHER]
@@ -62,9 +63,9 @@ def run(request: PoincareSectionRequest) -> Iterator[Report]:
 
 
 def _asked(request: PoincareSectionRequest, subject: Subject, cancelled: np.ndarray) -> _Asked:
-    problem, observables = subject.problem, observables_of(request, subject)
+    observables, problem = observables_of(request, subject), bounded(subject, MOST_STEPS)
     path = path_of(problem, steps_of(problem, is_driven=False)[0], LONGEST_PATH, cancelled)
-    section = section_of(request, subject, observables, path)
+    section = section_of(request, problem, observables, path)
     grid = Grid(section, path)
     own = grid.own
     found = float(grid.energy_at(own[None, :])[0])
