@@ -29,7 +29,16 @@ MAGNITUDES = (5e-324, 2.3e-308, 1e-200, 1e-155, 1e-16, 1e16, 1e77, 1e153, 1e154,
 WHOLE = (0, -1, 2**31, 2**53 + 1, 2**63, 2**64, -(2**63) - 1, 10**300, 10**308, 10**309, 10**399)
 METHODS = ("auto", "rk4", "explicit-euler", "dop853", "radau-5", "stormer-verlet", "gauss-4", "newmark")
 FORMS = ("latex", "markdown", "python")
-EXPERIMENTS = ("work-precision", "convergence", "energy-drift", "stability", "chaos", "fidelity", "stability-map")
+EXPERIMENTS = (
+    "work-precision",
+    "convergence",
+    "energy-drift",
+    "stability",
+    "chaos",
+    "fidelity",
+    "stability-map",
+    "poincare-section",
+)
 BUSY = {503, 504}
 QUICK = {"simulation_deadline": 2, "derivation_deadline": 2, "experiment_deadline": 2, "queue_patience": 60}
 

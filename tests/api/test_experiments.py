@@ -36,6 +36,7 @@ SMALL: dict[str, dict[str, Any]] = {key: {"scene": "pendulum", "t_end": 1.0} for
     "stability-map": {"scene": "kapitza", **AXES},
     "chaos": {"scene": "double-pendulum", "t_end": 3.0, "map": True, "count": 16},
     "fidelity": {"scene": "elastic-pendulum", "t_end": 2.0},
+    "poincare-section": {"scene": "coupled-pendulums", "t_end": 6.0, "count": 2, "crossings": 5},
 }
 
 

@@ -42,6 +42,7 @@ QUESTIONS: dict[str, dict[str, Any]] = {key: {"scene": "pendulum", "t_end": 1.0}
     "stability-map": {"scene": "kapitza", **AXES},
     "chaos": {"scene": "double-pendulum", "t_end": 2.0, "map": True, "count": 16},
     "fidelity": {"scene": "elastic-pendulum", "t_end": 2.0},
+    "poincare-section": {"scene": "coupled-pendulums", "t_end": 6.0, "count": 2, "crossings": 5},
 }
 
 

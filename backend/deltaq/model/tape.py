@@ -111,6 +111,7 @@ class _Writer:
             "Piecewise": lambda e: self._choice(e.args),
             "StrictLessThan": lambda e: self._condition(POSITIVE, NEGATIVE, e),
             "LessThan": lambda e: self._condition(NOT_NEGATIVE, NOT_POSITIVE, e),
+            "Equality": self._shared_condition,
             "Abs": lambda e: self.place(se.Piecewise((e.args[0], e.args[0] >= 0), (-e.args[0], True))),
         }
 
@@ -167,6 +168,11 @@ class _Writer:
         if smaller - larger in self._known:
             return self._write(mirrored, self._known[smaller - larger])
         return self._write(code, self.place(larger - smaller))
+
+    def _shared_condition(self, expression: Expr) -> int:
+        """`x0 == True`: how a condition that several choices share stands in them, its symbol defined before."""
+        symbol, *_ = (each for each in expression.args if each in self._known)
+        return self._known[symbol]
 
     def _choice(self, arguments: Sequence[Expr]) -> int:
         """value, condition, value, condition …; the last condition is true."""

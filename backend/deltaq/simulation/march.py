@@ -29,7 +29,7 @@ Truths = NDArray[np.bool_]
 GOES_ON = -1
 HALVINGS = 60
 ROUNDING = 2.0**-53
-LEAST_PART = 1e-3  # of the step that the series would allow; no shorter one is asked for by who watches
+LEAST_PART = 1e-6  # of the step that the series allows, or the span: no shorter one is asked for
 _CALL = ctypes.CFUNCTYPE(None, *[ctypes.c_void_p] * 4)
 
 
@@ -173,7 +173,7 @@ class March:
         """
         self._drop()
         lanes, n = self._lanes, 2 * self.degrees
-        wanted = self._wanted()
+        wanted = np.minimum(self._wanted(), self.steps.size)
         size, end = self._fitted(np.minimum(wanted, lanes.least))
         size, is_cut = self._cut(size)
         shares = np.arange(1, parts + 1)[:, None] / parts
@@ -322,7 +322,7 @@ class March:
         n, allowed = 2 * self.degrees, max(UNNOTICED * self.steps.tolerance, ALWAYS_UNNOTICED)
         apart = trial.size * np.abs(trial.slopes - following[1, :n] / units) / np.maximum(1.0, np.abs(trial.new[:n]))
         worse = (apart.max(axis=0) > allowed) & ~trial.is_cut
-        return np.asarray((worse | (outcome != FINE)) & (trial.size > LEAST_PART**2 * trial.wanted))
+        return np.asarray((worse | (outcome != FINE)) & (trial.size > LEAST_PART * trial.wanted))
 
 
 def _unit_near(size: Floats, units: Floats) -> Floats:

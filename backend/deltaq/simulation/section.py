@@ -27,6 +27,7 @@ ROUNDS = 64  # steps of all motions after which what was found is told
 MOST_ROOT_STEPS = 60
 NEAR = 0.1  # what the cubic says of a minimum, over the values beside it, for which it is looked at itself
 UNSEEN = 0.1  # how far a cubic may be from the function, over its size in the step
+STILL = 8.0  # times the change of h in a step that its fastest part may suggest
 ZERO = 1e-12  # h of a start over its rounding scale, for the start to lie in the plane
 
 
@@ -168,7 +169,11 @@ class _Search:
         """Whether h does in a step what its values at the ends of parts do not show: cubics through two miss others."""
         size = np.abs(values).max(axis=0)
         middle = 0.5 * (values[:-2:2] + values[2::2]) + 0.25 * lengths * (slopes[:-2:2] - slopes[2::2])
-        return np.asarray((np.abs(middle - values[1::2]) > UNSEEN * size).any(axis=0))
+        is_missed = (np.abs(middle - values[1::2]) > UNSEEN * size).any(axis=0)
+        # values that are alike while h moves fast: it has turned back as often between them
+        return np.asarray(
+            is_missed | (lengths * np.abs(slopes).max(axis=0) > STILL * np.ptp(values, axis=0) + ZERO * size)
+        )
 
     def _bracket(self, seen: _Looked, taken: Truths) -> None:
         """Parts in which h changes its sign, or touches zero and turns back."""
@@ -201,8 +206,9 @@ class _Search:
         part, lane = part[near], lane[near]
         x, left, right, shift = (each[near] for each in (x, left, right, shift))
         a, b = seen.theta[part, lane], seen.theta[part + 1, lane]
-        series, middle = self.march.polynomials(lane), a + x * (b - a)
-        value = self.surface.slopes(*series.at(middle))[0] - shift
+        series = self.march.polynomials(lane)
+        middle, value = _lowest(series, self.surface, a, b, a + x * (b - a), np.sign(left))
+        value = value - shift
         for half in ((a, middle, left, value), (middle, b, value, right)):
             is_in = self.surface.is_crossed(*half[2:])
             if is_in.any():
@@ -234,6 +240,19 @@ def _extremum(left: Floats, right: Floats, falls: Floats, rises: Floats) -> tupl
         x = np.where(falls < 0.0, -falls / (b + root), -falls / (b - root))
     x = np.clip(np.nan_to_num(x, nan=0.5), 0.0, 1.0)
     return x, left + x * (falls + x * (b + x * a))
+
+
+def _lowest(
+    series: Polynomials, surface: Surface, a: Floats, b: Floats, x: Floats, sign: Floats
+) -> tuple[Floats, Floats]:
+    """Place and value of the extremum of h between a and b, where `sign` ḣ turns from negative to positive."""
+    value = np.zeros_like(x)
+    for _ in range(MOST_ROOT_STEPS):
+        value, slope = surface.slopes(*series.at(x))
+        is_before = slope * sign < 0.0
+        a, b = np.where(is_before, x, a), np.where(is_before, b, x)
+        x = 0.5 * (a + b)
+    return x, value
 
 
 def _joined(kept: list[_Brackets]) -> list[_Brackets]:
