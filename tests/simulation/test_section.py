@@ -19,7 +19,7 @@ from deltaq.simulation.run import Steps
 from deltaq.simulation.section import Crossings, Standing, Surface, follow
 from deltaq.simulation.service import problem_of
 
-STEPS = Steps(10.0, 1e-16, order=26)
+STEPS = Steps(10.0, 1e-16, order=28)
 
 
 def plane(energy: str) -> Scene:

@@ -29,6 +29,7 @@ Truths = NDArray[np.bool_]
 GOES_ON = -1
 HALVINGS = 60
 ROUNDING = 2.0**-53
+BELOW, SHORTER_TWIN = 1e-3, 0.9  # the local tolerance and the bounds of twins' steps over those of the others
 LEAST_PART = 1e-6  # of the step that the series allows, or the span: no shorter one is asked for
 _CALL = ctypes.CFUNCTYPE(None, *[ctypes.c_void_p] * 4)
 
@@ -114,24 +115,30 @@ class _Trial:
 
 
 class March:
-    """Motions from `starts`, shape (motions, 2n), to the problem's t_end; `steps` has the order and the pieces, too."""
+    """Motions from `starts`, shape (motions, 2n), to the problem's t_end; `steps` has the order and the pieces, too.
 
-    def __init__(self, problem: Problem, starts: Floats, steps: Steps) -> None:
-        self.problem, self.steps, self.count = problem, steps, len(starts)
+    With `twins` each goes along once more, behind all others: by much smaller local errors, with steps that are bounded
+    by a little less, and from a start and with constants some units in the last place away.
+    """
+
+    def __init__(self, problem: Problem, starts: Floats, steps: Steps, *, twins: bool = False) -> None:
+        is_twin = np.repeat([False, True] if twins else [False], len(starts))
+        self.problem, self.steps, self.count = problem, steps, len(is_twin)
         self.end_time, self.degrees, self.order = problem.t_end, problem.degrees, steps.order or 0
         self.jet = jet_of_model(problem.model, is_long=True, lanes=LANES)
         self.outcomes = np.full(self.count, GOES_ON, dtype=np.int64)
         recurrences = problem.model.recurrences
-        states = np.hstack([starts, np.zeros((self.count, self.jet.shape.width - 2 * self.degrees))])
+        states = np.hstack([starts, np.zeros((len(starts), self.jet.shape.width - 2 * self.degrees))])
         constants = recurrences.constants(np.array(problem.parameters))
-        if steps.is_nudged:
-            states, constants = nudged(states), recurrences.nudged(constants)
-        self._constants = constants[:, None]
+        self._constants = np.where(is_twin, recurrences.nudged(constants)[:, None], constants[:, None])
+        self._tolerances = steps.tolerance * np.where(is_twin, BELOW, 1.0)
+        self._shares = np.where(is_twin, SHORTER_TWIN, 1.0)
         self._call, self._work = _CALL(self.jet.code.address), np.zeros(self.jet.work)
         self._program = np.array([self.order], dtype=np.int64)
         pieces = steps.pieces or Pieces.whole(self.end_time)
         bounds = pieces.bounded(steps.size)
         self._ends, self._bounds = np.array(pieces.ends), np.where(bounds > 0.0, bounds, np.inf)
+        states = np.vstack([states, nudged(states)]) if twins else states
         self._lanes = self._begun(np.ascontiguousarray(states.T), steps.size)
         self._reached, self._taken = np.zeros(self.count), np.zeros(self.count, dtype=np.int64)
         self._last = self._lanes
@@ -201,7 +208,7 @@ class March:
         if trial is None:
             raise LookupError("a step is tried before it is accepted")
         units = _unit_near(trial.size, lanes.units)
-        following = self._expanded(trial.new, trial.end, units)
+        following = self._expanded(lanes.which, trial.new, trial.end, units)
         outcome = self._outcome(following, trial.new)
         refused = self._is_bad(trial, following, units, outcome)
         refused |= is_unseen & (trial.size > LEAST_PART * trial.wanted)
@@ -236,25 +243,24 @@ class March:
     def _begun(self, states: Floats, near: float) -> _Lanes:
         """All motions where they begin; their unit of time is shortened until the coefficients are in range."""
         count = states.shape[1]
-        units, now = np.full(count, 2.0 ** np.floor(np.log2(near))), np.zeros(count)
+        numbers, units, now = np.arange(count), np.full(count, 2.0 ** np.floor(np.log2(near))), np.zeros(count)
         for _ in range(4):
-            found = self._expanded(states, now, units)
+            found = self._expanded(numbers, states, now, units)
             outcome = self._outcome(found, states)
             too_large = (outcome == TOO_LARGE) | (outcome == NOT_FINITE)
             if not too_large.any():
                 break
             units = np.where(too_large, units * 2.0**-24, units)
         self.outcomes[outcome != FINE] = outcome[outcome != FINE]
-        numbers, least = np.arange(count), np.full(count, np.inf)
+        least = np.full(count, np.inf)
         return _Lanes(numbers, states, np.zeros_like(states), now, least, np.zeros_like(numbers), units, found)
 
-    def _expanded(self, states: Floats, times: Floats, units: Floats) -> Floats:
+    def _expanded(self, which: Integers, states: Floats, times: Floats, units: Floats) -> Floats:
         """The coefficients at these states, shape (order + 1, components, lanes)."""
         count = len(times)
         blocks = -(-count // LANES)
         padded = np.minimum(np.arange(blocks * LANES), count - 1)
-        constants = np.broadcast_to(self._constants, (len(self._constants), count))
-        given = np.vstack([units, states, times, constants])[:, padded].reshape(-1, blocks, LANES)
+        given = np.vstack([units, states, times, self._constants[:, which]])[:, padded].reshape(-1, blocks, LANES)
         given = np.ascontiguousarray(given.transpose(1, 0, 2))
         out = np.empty((blocks, self.order + 1, self.jet.shape.components, LANES))
         to, of, work, program = (each.ctypes.data for each in (out, given, self._work, self._program))
@@ -276,18 +282,16 @@ class March:
     def _wanted(self) -> Floats:
         """The step by which the last two coefficients shrink to the tolerance, by lane."""
         n, c, order = 2 * self.degrees, self._lanes.coefficients, self.order
-        scale = np.maximum(1.0, np.abs(self._lanes.old[:n]))
+        scale = np.maximum(1.0, np.abs(self._lanes.old[:n])) * self._tolerances[self._lanes.which]
         with np.errstate(divide="ignore"):
-            last, before = (
-                np.log((np.abs(c[k, :n]) / scale).max(axis=0) / self.steps.tolerance) / k for k in (order, order - 1)
-            )
+            last, before = (np.log((np.abs(c[k, :n]) / scale).max(axis=0)) / k for k in (order, order - 1))
         return np.asarray(self._lanes.units * np.exp(-0.7 / (order - 1.0) - np.maximum(last, before)))
 
     def _fitted(self, wanted: Floats) -> tuple[Floats, Floats]:
         """Steps within the pieces of the span, and the times that they end at."""
         now = self._lanes.now
         piece = np.minimum(np.searchsorted(self._ends, now, side="right"), len(self._ends) - 1)
-        size, left = np.minimum(wanted, self._bounds[piece]), self._ends[piece] - now
+        size, left = np.minimum(wanted, self._shares[self._lanes.which] * self._bounds[piece]), self._ends[piece] - now
         is_last = size * (1.0 + 1e-9) >= left
         return np.where(is_last, left, size), np.where(is_last, self._ends[piece], now + size)
 

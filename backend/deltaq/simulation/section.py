@@ -92,13 +92,21 @@ class Standing:
 
 
 def follow(
-    problem: Problem, surface: Surface, starts: Floats, steps: Steps, most: int, cancelled: Flag
+    problem: Problem,
+    surface: Surface,
+    starts: Floats,
+    steps: Steps,
+    most: int,
+    cancelled: Flag,
+    *,
+    twins: bool = False,
 ) -> Iterator[tuple[Crossings, Standing]]:
     """The crossings of motions from `starts`, shape (motions, 2n), as they come, with where all stand.
 
     A motion ends at the problem's t_end, or with so many crossings. A start that lies in the plane is the first.
+    With `twins` (`march.March`) each motion has one, whose number is as much larger as there are motions.
     """
-    march = March(problem, starts, steps)
+    march = March(problem, starts, steps, twins=twins)
     search = _Search(surface, march)
     rounds = 0
     while march.goes_on:

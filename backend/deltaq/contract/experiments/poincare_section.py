@@ -31,7 +31,7 @@ class Orbit(Answer):
     t: tuple[float, ...] = Field(description="seconds")
     x: tuple[float, ...]
     y: tuple[float, ...]
-    error: tuple[float, ...] = Field(description="of each point: absolute below 1, relative above; empty at first")
+    error: tuple[float, ...] = Field(description="of each point: absolute below 1, relative above")
 
 
 class PoincareSectionAnswer(ExperimentAnswer):
@@ -48,7 +48,7 @@ class PoincareSectionAnswer(ExperimentAnswer):
     forbidden: int = Field(description="starts of the grid that would need more energy")
     unsolved: int = Field(description="starts of the grid for which no state in the plane was found")
     missed: int = Field(description="orbits that never cross the plane")
-    sharp: int = Field(description="points whose error is at most 1e-10; 0 as long as it is not known")
+    sharp: int = Field(description="points whose error is at most 1e-10")
     kept: float | None = Field(description="how far the energy before the horizons is from that wanted, in parts of it")
     regular: float | None = Field(description="the part of the grid whose orbits are not chaotic")
     extent: float = Field(description="the larger side of the picture")
@@ -71,8 +71,8 @@ class PoincareSectionRequest(ExperimentRequest):
     horizontal: Asked = Field("", description="an expression for the first axis; empty: the next coordinate")
     vertical: Asked = Field("", description="an expression for the second axis; empty: the rate of that coordinate")
     energy: float | None = Field(None, description="of all starts; if empty, that of the scene's own start")
-    count: int = Field(7, ge=0, le=64, description="starts on a side of the grid, besides the scene's own start")
-    crossings: int = Field(100, ge=1, le=20_000, description="points of an orbit, at most")
+    count: int = Field(6, ge=0, le=64, description="starts on a side of the grid, besides the scene's own start")
+    crossings: int = Field(80, ge=1, le=20_000, description="points of an orbit, at most")
     skip: int = Field(0, ge=0, le=10_000, description="first points of each orbit that are left out: a transient")
     beyond: bool = Field(default=True, description="whether points after the horizon of an orbit are shown, marked")
 

@@ -29,7 +29,7 @@ from ..subject import Subject, bounded, free_subject_of
 TOTAL = 1000
 MOST_STEPS = 20_000  # of one orbit: one that comes close to a pole would keep all others waiting
 SHARP = 1e-10  # the error up to which a point is said to be known well
-LONGEST_PATH = 2000  # steps of the scene's own motion that are looked at before anything else
+LONGEST_PATH = 600  # steps of the scene's own motion that are looked at before anything else
 
 
 @dataclass(frozen=True)
@@ -64,7 +64,7 @@ def run(request: PoincareSectionRequest) -> Iterator[Report]:
 
 def _asked(request: PoincareSectionRequest, subject: Subject, cancelled: np.ndarray) -> _Asked:
     observables, problem = observables_of(request, subject), bounded(subject, MOST_STEPS)
-    path = path_of(problem, steps_of(problem, is_driven=False)[0], LONGEST_PATH, cancelled)
+    path = path_of(problem, steps_of(problem, is_driven=False), LONGEST_PATH, cancelled)
     section = section_of(request, problem, observables, path)
     grid = Grid(section, path)
     own = grid.own
@@ -98,8 +98,8 @@ def _told(asked: _Asked, orbits: Sequence[Orbit]) -> Document:
     seen = [orbit.seen[skip:] for orbit in orbits]
     points = np.concatenate([np.zeros((0, 3)), *seen])
     extent = float(np.ptp(points[:, :2], axis=0).max()) if len(points) else 1.0
-    trusted = [orbit.seen[skip : orbit.horizon(extent)] for orbit in orbits if len(orbit.errors)]
-    errors = [orbit.errors[skip : orbit.horizon(extent)] for orbit in orbits if len(orbit.errors)]
+    trusted = [orbit.seen[skip : orbit.horizon(extent)] for orbit in orbits]
+    errors = [orbit.errors[skip : orbit.horizon(extent)] for orbit in orbits]
     verdicts = [orbit.is_chaotic(extent) for orbit in orbits[int(asked.has_own) :]]
     clear = [one for one in verdicts if one is not None]
     return asked.subject.described | {
@@ -133,14 +133,14 @@ def _orbit(asked: _Asked, orbit: Orbit, extent: float, *, own: bool) -> Document
     count = len(orbit.rows) if asked.request.beyond else known
     rows, seen, errors = orbit.rows[skip:count], orbit.seen[skip:count], orbit.errors[skip:count]
     is_lost = known < len(orbit.rows)
-    shown = rounded_to(seen[:, :2], np.minimum(errors, 1e-3)) if len(errors) else seen[:, :2]
+    shown = rounded_to(seen[:, :2], np.minimum(errors, 1e-3))
     names = [coordinate.name for coordinate in asked.subject.scene.free]
     starts = zip(names, orbit.start[:n].tolist(), orbit.start[n:].tolist(), strict=True)
     return {
         "initial": {name: {"value": value, "rate": rate} for name, value, rate in starts},
         "own": own,
         "status": "horizon_reached" if is_lost and orbit.status == "ok" else orbit.status,
-        "chaotic": orbit.is_chaotic(extent) if len(orbit.errors) else None,
+        "chaotic": orbit.is_chaotic(extent),
         "horizon": significant(float(orbit.rows[known, -1])) if is_lost else None,
         "t": rounded(rows[:, -1], 12),
         "x": shown[:, 0].tolist(),

@@ -15,8 +15,8 @@ export default {
     expression("horizontal"),
     expression("vertical"),
     value("energy"),
-    count("grid", "count", 7),
-    count("crossings", "crossings", 100),
+    count("grid", "count", 6),
+    count("crossings", "crossings", 80),
     duration(),
   ],
 };
