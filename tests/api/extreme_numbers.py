@@ -164,6 +164,7 @@ class Draw(random.Random):
             "energy-drift": {"steps": 1000, "step": self.often(0.01)},
             "chaos": {"apart": self.often(1e-6)},
             "fidelity": {"tolerance": self.often(0.01)},
+            "poincare-section": {"energy": self.number(), "count": 2} if self.random() < 0.5 else {"count": 2},
             "stability-map": {
                 axis: {"parameter": "omega", "from": self.number(), "to": self.number(), "count": 4} for axis in "xy"
             },

@@ -121,3 +121,19 @@ def test_a_phone_shows_all_of_it(lecture: Lecture, lang: str) -> None:
     assert canvas is not None
     assert canvas["x"] + canvas["width"] <= 360
     expect(page).to_have_url(re.compile("lab=convergence.*scene=pendulum.*t=1"))
+
+
+def test_a_point_of_a_section_leads_to_its_orbit(lecture: Lecture) -> None:
+    """The link of the table and that of the motion, which a click on a point plays, begin as the orbit does."""
+    page = measured(opened(lecture, "lab=poincare-section&scene=coupled-pendulums&t=40&grid=3&crossings=8")).page
+    point = page.locator("figure[data-chart=poincare-section] .points path").first
+    point.wait_for()
+    point.click(force=True)
+    link = page.locator(".motion h2 a")
+    expect(link).to_have_attribute("href", re.compile("scene=coupled-pendulums.*set=phi1:"))
+    page.get_by_text("Orbits (").click()
+    rows = page.locator(".failures tbody tr a")
+    assert link.get_attribute("href") in {row.get_attribute("href") for row in rows.all()}
+    rows.first.click()
+    expect(page).to_have_url(re.compile(r"/scene\?.*set="))
+    page.locator("main .katex").first.wait_for()

@@ -81,6 +81,7 @@ export const COURSE = [
       measured("failure", "stability"),
       measured("upright", "stability-map"),
       measured("horizon", "chaos"),
+      measured("section", "poincare-section"),
       measured("least", "fidelity"),
     ],
   },

@@ -85,6 +85,8 @@ def _asked(request: PoincareSectionRequest, subject: Subject, cancelled: np.ndar
 
 def _require_points(asked: _Asked, orbits: Sequence[Orbit]) -> None:
     """Raises RequestError where no orbit crosses the plane, or all stay in it."""
+    if all(orbit.status != "ok" and not len(orbit.rows) for orbit in orbits):
+        raise RequestError(Mistake("no-motion"))
     told: dict[str, str | float] = {"plane": asked.section.plane.text[:80], "t_end": asked.subject.problem.t_end}
     if all(orbit.reach <= MEETS * asked.scale for orbit in orbits):
         raise RequestError(Mistake("section-plane-contains", "/plane", parameters=told))
