@@ -4875,7 +4875,7 @@ export interface components {
             y: number[];
             /**
              * Error
-             * @description of each point: absolute below 1, relative above; empty at first
+             * @description of each point: absolute below 1, relative above
              */
             error: number[];
         };
@@ -5041,7 +5041,7 @@ export interface components {
             missed: number;
             /**
              * Sharp
-             * @description points whose error is at most 1e-10; 0 as long as it is not known
+             * @description points whose error is at most 1e-10
              */
             sharp: number;
             /**
