@@ -98,7 +98,7 @@ const LABS = Object.keys(read("en", "labs").experiments);
 /** What the labs ask for by lab and option; charts are made by the server, with its texts. */
 const LAB = [
   ...LABS.flatMap((lab) => [`labs.experiments.${lab}.title`, `labs.experiments.${lab}.summary`]),
-  ...KNOWN.options("chaos").flatMap(({ kind, label, choices = [] }) => [label, ...choices.filter((one) => typeof one === "string").map((one) => `${label}-${one}`), ...(kind === "parameter" ? [`${label}-usual`] : [])]).map((key) => `labs.${key}`),
+  ...KNOWN.options("chaos").flatMap(({ kind, label, choices = [] }) => [label, ...choices.filter((one) => typeof one === "string").map((one) => `${label}-${one}`), ...(["parameter", "text"].includes(kind) ? [`${label}-usual`] : [])]).map((key) => `labs.${key}`),
 ];
 const CHARTS = ["axis", "hover", "status", ...LABS].map((part) => `labs.${part}.`).concat("ladder.", "labs.without-result");
 

@@ -38,9 +38,9 @@ MEETS = 1e-9  # |h| over its scale, below which a motion is in the plane all the
 
 @dataclass(frozen=True)
 class Orbit:
-    """The points of one motion: `rows` (q, q̇, t) and `seen` (x, y, energy), shape (points, …).
+    """The points of one motion from a `start`, shape (2n,): `rows` (q, q̇, t) and `seen` (x, y, energy).
 
-    `errors`, shape (points,), are absolute below 1 and relative above.
+    These have shape (points, …); `errors`, shape (points,), are absolute below 1 and relative above.
     """
 
     start: Floats

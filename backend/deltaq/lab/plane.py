@@ -100,7 +100,7 @@ def observables_of(request: PoincareSectionRequest, subject: Subject) -> Observa
 
 
 def section_of(request: PoincareSectionRequest, problem: Problem, observables: Observables, path: Floats) -> Section:
-    """The section that a request means; `path`, rows (q, q̇, t), is the motion from the scene's own start.
+    """The section that a request means; `path`, shape (steps, 2n + 1), is the scene's own motion as (q, q̇, t).
 
     Raises InputError that says what to ask instead: for a motion whose energy is lost, for a plane that is no plane.
     """

@@ -29,7 +29,7 @@ LEAST = 1e-3  # of a box beside what its coordinate is at the start
 
 @dataclass(frozen=True)
 class Starts:
-    """States (q, q̇), shape (starts, 2n); how many of the grid need more energy, and of how many none was found."""
+    """`states` (q, q̇), shape (starts, 2n); how many of the grid need more energy, and of how many none was found."""
 
     states: Floats
     forbidden: int
@@ -38,7 +38,7 @@ class Starts:
 
 @dataclass(frozen=True)
 class Box:
-    """The middle of a rectangle and half its sides, shape (2,) each."""
+    """The `middle` of a rectangle and `half` its sides, shape (2,) each."""
 
     middle: Floats
     half: Floats
@@ -53,7 +53,7 @@ class Box:
 
 @dataclass(frozen=True)
 class Grid:
-    """Starts in a section; `path` is the motion from the scene's own start, rows (q, q̇, t)."""
+    """Starts in a section; `path`, shape (steps, 2n + 1), is the motion from the scene's own start as (q, q̇, t)."""
 
     section: Section
     path: Floats
@@ -131,7 +131,10 @@ class Grid:
 
     @cached_property
     def lowest(self) -> tuple[Floats, float]:
-        """Where near the scene's own motion the least energy is needed, and that energy: a lattice that shrinks."""
+        """Where near the scene's own motion the least energy is needed, shape (2,), and that energy.
+
+        A lattice that shrinks finds it.
+        """
         whole = Box(self.covered.middle, BESIDE * self.covered.half)
         middle, least, half = whole.middle, math.inf, whole.half
         for _ in range(ROUNDS):
@@ -176,7 +179,7 @@ class Grid:
         return Box(0.5 * (low + high), np.minimum(0.5 * (high - low) + 0.5 * cell, box.half))
 
     def solved(self, points: Floats, energy: float) -> tuple[Floats, Floats]:
-        """States in the plane at an energy over points (points, 2), and the energy that each needs at least.
+        """States in the plane at an energy over points, shape (points, 2), and the energy that each needs at least.
 
         A state that is not found is NaN; the energy needed where the plane is not met is infinite.
         """

@@ -49,7 +49,7 @@ class Polynomials:
     degrees: int
 
     def at(self, theta: Floats) -> tuple[Floats, Floats]:
-        """Rows (q, q̇, t) and the time derivatives of (q, q̇) at places θ, one in each step."""
+        """Rows (q, q̇, t) and the time derivatives of (q, q̇) at places θ, shape (steps,): one in each step."""
         n, c, x = 2 * self.degrees, self.coefficients, theta[:, None]
         values, slopes = c[:, -1], np.zeros_like(c[:, -1])
         for k in range(c.shape[1] - 2, 0, -1):
@@ -155,7 +155,7 @@ class March:
         return self._lanes.which
 
     def reached(self) -> Floats:
-        """The time that each motion has come to."""
+        """The time that each motion has come to, shape (motions,)."""
         self._reached[self._lanes.which] = self._lanes.now
         return self._reached.copy()
 

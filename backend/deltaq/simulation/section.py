@@ -35,7 +35,8 @@ ZERO = 1e-12  # h of a start over its rounding scale, for the start to lie in th
 class Surface:
     """Where h(q, q̇, t) = 0 and h rises (`direction` 1), falls (−1) or does either (0).
 
-    `values` takes rows (q, q̇, t) to rows of h with its derivatives by each of them; h means the same after a `turn`.
+    `values` takes rows (q, q̇, t), shape (rows, 2n + 1), to h with its derivatives by each of them, shape (rows,
+    2n + 2); h means the same after a `turn`.
     """
 
     values: Callable[[Floats], Floats]
@@ -49,18 +50,18 @@ class Surface:
         return found[..., 0], (found[..., 1:-1] * rates).sum(axis=-1) + found[..., -1]
 
     def shift(self, values: Floats) -> Floats:
-        """The whole turns next to each value."""
+        """The whole turns next to each of the values, which have any shape (…,)."""
         return np.zeros_like(values) if math.isinf(self.turn) else np.asarray(self.turn * np.round(values / self.turn))
 
     def is_crossed(self, left: Floats, right: Floats) -> Truths:
-        """Whether h goes through zero in the direction wanted between two values of it; zero itself counts once."""
+        """Whether h goes through zero in the direction wanted between values of it, shape (…,); zero counts once."""
         rises, falls = (left < 0.0) & (right >= 0.0), (left > 0.0) & (right <= 0.0)
         return np.asarray({1: rises, -1: falls}.get(self.direction, rises | falls))
 
 
 @dataclass(frozen=True)
 class Crossings:
-    """Where motions crossed: their numbers, the times, the states (q, q̇), shape (crossings, 2n), and ḣ there."""
+    """Where `motions` of these numbers crossed: `times`, `states` (q, q̇) and `speeds` ḣ, shape (crossings, …)."""
 
     motions: Integers
     times: Floats
@@ -69,7 +70,7 @@ class Crossings:
 
     @property
     def rows(self) -> Floats:
-        """Rows (q, q̇, t)."""
+        """Rows (q, q̇, t), shape (crossings, 2n + 1)."""
         return np.column_stack([self.states, self.times])
 
     @property
@@ -80,9 +81,9 @@ class Crossings:
 
 @dataclass(frozen=True)
 class Standing:
-    """What became of each motion so far, shape (motions,): the time reached, the crossings, and the kernels' outcome.
+    """What became of each motion so far, shape (motions,): the time `reached`, how often it `crossed`, its `reach` |h|.
 
-    The outcome of one that goes on is −1. `reach` is the largest |h| that was seen over its rounding scale.
+    `outcomes` are those of the kernels, −1 of one that goes on.
     """
 
     reached: Floats
@@ -291,7 +292,7 @@ def _refined(found: _Brackets, surface: Surface) -> Crossings:
 
 
 def path_of(problem: Problem, steps: Steps, most: int, cancelled: Flag) -> Floats:
-    """The ends of the steps of the problem's own motion, `most` at most, as rows (q, q̇, t)."""
+    """The ends of the steps of the problem's own motion, `most` at most, as rows (q, q̇, t), shape (steps, 2n + 1)."""
     march = March(problem, problem.state[None, : 2 * problem.degrees], steps)
     rows = [march.rows()[0]]
     while march.goes_on and len(rows) < most and cancelled[0] == 0:

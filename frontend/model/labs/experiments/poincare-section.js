@@ -17,6 +17,7 @@ export default {
     value("energy"),
     count("grid", "count", 6),
     count("crossings", "crossings", 80),
+    count("skip", "skip", 0),
     duration(),
   ],
 };
