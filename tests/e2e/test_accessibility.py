@@ -144,6 +144,12 @@ PLACES = [
     pytest.param("labs?", "main", nothing, id="labs"),
     pytest.param("labs?lab=convergence&scene=pendulum&t=1", "button.main:enabled", measure, id="labs, measured"),
     pytest.param(
+        "labs?lab=poincare-section&scene=coupled-pendulums&t=9&grid=2&crossings=3",
+        "button.main:enabled",
+        measure,
+        id="labs, a section",
+    ),
+    pytest.param(
         "labs?lab=stability&scene=two-mass-oscillator&t=1", "button.main:enabled", measure, id="labs, a table"
     ),
     pytest.param("lecture?shipped=1", ".stop", unfold, id="outline of a lecture"),

@@ -131,7 +131,7 @@ def test_a_point_of_a_section_leads_to_its_orbit(lecture: Lecture) -> None:
     point.click(force=True)
     link = page.locator(".motion h2 a")
     expect(link).to_have_attribute("href", re.compile("scene=coupled-pendulums.*set=phi1:"))
-    page.get_by_text("Orbits (").click()
+    page.locator("summary", has_text="Orbits (").click()
     rows = page.locator(".failures tbody tr a")
     assert link.get_attribute("href") in {row.get_attribute("href") for row in rows.all()}
     rows.first.click()
