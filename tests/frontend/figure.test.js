@@ -54,6 +54,8 @@ test("a phase portrait of a harmonic motion is an ellipse, and knows the moment 
   assert.ok(Math.abs(moment.t - 2.013) < 0.03 && moment.far < 3);
   assert.ok(portrait.columns.length >= 2 && portrait.rows.length >= 2);
   assert.doesNotMatch(portrait.paths[0], /NaN/);
+  const [large] = portraitsOf(scene, [swing], { width: 1600, height: 900 }, 40);
+  large.columns.slice(1).forEach(({ position }, i) => assert.ok(position - large.columns[i].position > 100, "numbers in large type have room"));
 });
 
 test("what is not trusted is apart from the rest of a portrait", () => {

@@ -25,6 +25,8 @@ import { niceFloor, perSecond, unitText } from "../numbers.js";
 /** Rooms at the left, right, top and bottom of a picture, in type sizes; and as many pictures as can be read. */
 export const ROOM = { left: 3.2, right: 0.8, top: 2, bottom: 2 };
 const MOST = 3;
+/** Type sizes from one number below a picture to the next, at least. */
+const APART_IN_EMS = 3;
 
 /** Value and rate of a coordinate over time. @param {Trajectory} trajectory @param {string} name @returns {(t: number) => Pixel} */
 function stateOf(trajectory, name) {
@@ -63,7 +65,7 @@ function portrait({ name, latex, unit }, className, trajectories, { left, width,
     trajectories.flatMap((each) => each.coordinates[name] ?? []),
     left + ROOM.left * em,
     left + width - ROOM.right * em,
-    { least },
+    { least, apart: APART_IN_EMS * em },
   );
   const y = scaleOf(
     trajectories.flatMap((each) => each.rates[name] ?? []),
