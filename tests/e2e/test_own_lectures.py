@@ -117,6 +117,16 @@ def test_a_lecture_is_given_without_a_network(lecture: Lecture) -> None:
     expect(page.locator(".stop")).to_have_count(4)
 
 
+def test_a_lecture_is_complete_when_its_measurements_are(lecture: Lecture) -> None:
+    """The hall says how much is missing until a lab has its results: without a network there would be none."""
+    page = given(lecture, [{"place": "labs?lab=stability&scene=pendulum", "title": "Stability"}])
+    page.context.set_offline(True)
+    measured = page.frame_locator("iframe.front").locator(".measured")
+    assert measured.get_attribute("aria-busy") == "false"
+    expect(measured.locator(".canvas").first).to_be_visible()
+    page.context.set_offline(False)
+
+
 def stroke(page: Page, board: str) -> Callable[[], int]:
     """Draws a line over the slide; how many lines there are."""
     box = page.locator(board).bounding_box() or {"x": 0, "y": 0, "width": 0, "height": 0}

@@ -45,7 +45,7 @@ export function page(view) {
     <main class="labs">
       <nav class="kinds" aria-label=${t("labs.choose-lab")}>${view.labs.map((lab) => kind(view, lab))}</nav>
       <div class="asking">${form(view)}</div>
-      <div class="measured" id="measured" tabindex="-1">
+      <div class="measured" id="measured" tabindex="-1" aria-busy=${String(bench.running)}>
         <p class="purpose">${t(`labs.experiments.${bench.question.lab}.summary`)}</p>
         ${progress(view)}
         ${bench.failure ? failure(bench.failure, t("labs.failed"), view.benches.start, t) : nothing}

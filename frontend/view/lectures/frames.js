@@ -13,13 +13,16 @@ import { linesOf } from "../../model/reveal.js";
 /** Milliseconds between two looks at what a page has fetched, and how many show nothing new when all is there. */
 const [LOOK, QUIET] = [400, 5];
 
+/** What stands on a page as long as something is fetched or measured. */
+const UNDER_WAY = ".waiting, .measured[aria-busy=true]";
+
 /** Comes true when a page has fetched all that it fetches by itself. @param {Window} page @returns {Promise<void>} */
 const settled = (page) =>
   new Promise((done) => {
     let [fetched, quiet] = [-1, 0];
     const looking = setInterval(() => {
       const now = page.performance?.getEntriesByType("resource").length ?? fetched;
-      const waits = page.document.querySelector(".waiting") !== null;
+      const waits = page.document.querySelector(UNDER_WAY) !== null;
       quiet = now === fetched && !waits ? quiet + 1 : 0;
       fetched = now;
       if (quiet < QUIET) return;
