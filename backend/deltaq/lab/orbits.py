@@ -33,6 +33,7 @@ LOST = 1e-3  # of the picture: a point that is farther from where it belongs sta
 PAUSE = 0.5  # seconds between two reports of what has come
 FEW = 20  # points that tell nothing of how errors grow
 GROWS = 1e-12  # of the picture, times the square of the number of points: more than regular motions lose
+LARGEST = 1e100  # on an axis
 MEETS = 1e-9  # |h| over its scale, below which a motion is in the plane all the time
 
 
@@ -104,6 +105,8 @@ def _orbits(section: Section, starts: Floats, parts: list[Crossings], standing: 
         if standing.outcomes[count + index] < 0:
             known = mine[:, -1] <= ends[count + index] - (theirs[-1, -1] - theirs[-2, -1] if len(theirs) > 1 else 0.0)
             mine, view = mine[known], view[known]
+        has_place = (np.abs(view[:, :2]) <= LARGEST).all(axis=1)  # an axis may have no value somewhere
+        mine, view = mine[has_place], view[has_place]
         code, errors = int(standing.outcomes[index]), _errors(section, mine, view, theirs, other)
         status: RungStatus = "ok" if code < 0 else outcome_of(code, {}).status
         found.append(Orbit(starts[index], mine, view, errors, status, float(standing.reach[index])))

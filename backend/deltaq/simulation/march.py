@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import ctypes
 from collections.abc import Sequence
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, fields, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -77,7 +77,7 @@ class _Lanes:
     """Motions side by side where they begin a step; the last axis of all arrays is theirs.
 
     `which` are their numbers. `old` with its `rest` (Kahan's) is the state at the time `now`, `coefficients` the series
-    there, shape (order + 1, components, lanes), in `units` of time; steps up to `least` may be tried, `taken` were.
+    there, shape (order + 1, components, lanes), in `units` of time; steps up to `least` may be tried, `tried` were.
     """
 
     which: Integers
@@ -85,7 +85,7 @@ class _Lanes:
     rest: Floats
     now: Floats
     least: Floats
-    taken: Integers
+    tried: Integers
     units: Floats
     coefficients: Floats
 
@@ -140,7 +140,7 @@ class March:
         self._ends, self._bounds = np.array(pieces.ends), np.where(bounds > 0.0, bounds, np.inf)
         states = np.vstack([states, nudged(states)]) if twins else states
         self._lanes = self._begun(np.ascontiguousarray(states.T), steps.size)
-        self._reached, self._taken = np.zeros(self.count), np.zeros(self.count, dtype=np.int64)
+        self._reached = np.zeros(self.count)
         self._last = self._lanes
         self._trial: _Trial | None = None
 
@@ -215,14 +215,14 @@ class March:
         taken = ~refused & (outcome == FINE)
         ended = ~refused & (outcome != FINE)
         least = np.full_like(trial.size, np.inf)
-        count = lanes.taken + 1
+        count = lanes.tried + 1
         gone = _Lanes(lanes.which, trial.new, trial.rest, trial.end, least, count, units, following)
-        stays = _Lanes(**{**vars(lanes), "least": np.where(refused, SHORTER * trial.size, lanes.least)})
+        stays = replace(lanes, least=np.where(refused, SHORTER * trial.size, lanes.least), tried=count)
         self._last, self._lanes, self._trial = lanes, stays.mixed(gone, taken), None
         outcome[refused & (lanes.now + SHORTER * trial.size <= lanes.now)] = STEP_UNDERFLOW
         ended |= outcome == STEP_UNDERFLOW
         self.outcomes[lanes.which[ended]] = outcome[ended]
-        self.outcomes[lanes.which[taken & (count >= self.problem.step_limit)]] = STEP_LIMIT
+        self.outcomes[lanes.which[~ended & (count >= self.problem.step_limit)]] = STEP_LIMIT
         self.outcomes[lanes.which[taken & (trial.end >= self.end_time)]] = FINE
         return np.asarray(taken)
 

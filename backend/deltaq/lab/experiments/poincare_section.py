@@ -90,6 +90,10 @@ def _require_points(asked: _Asked, orbits: Sequence[Orbit]) -> None:
     told: dict[str, str | float] = {"plane": asked.section.plane.text[:80], "t_end": asked.subject.problem.t_end}
     if all(orbit.reach <= MEETS * asked.scale for orbit in orbits):
         raise RequestError(Mistake("section-plane-contains", "/plane", parameters=told))
+    start = asked.section.at(np.column_stack([asked.states[:1], np.zeros(1)]))[0, :2]
+    for value, name, axis in zip(start, ("horizontal", "vertical"), asked.section.axes, strict=True):
+        if not np.isfinite(value) and not any(len(orbit.rows) for orbit in orbits):
+            raise RequestError(Mistake("never-defined", f"/{name}", parameters={"expression": axis.text[:80]}))
     if not any(len(orbit.rows) > asked.request.skip for orbit in orbits):
         raise RequestError(Mistake("section-never-met", "/plane", parameters=told))
 
