@@ -31,6 +31,7 @@ HALVINGS = 60
 ROUNDING = 2.0**-53
 BELOW, SHORTER_TWIN = 1e-3, 0.9  # the local tolerance and the bounds of twins' steps over those of the others
 LEAST_PART = 1e-6  # of the step that the series allows, or the span: no shorter one is asked for
+LEAST_STEP = 1e-10  # over the span
 _CALL = ctypes.CFUNCTYPE(None, *[ctypes.c_void_p] * 4)
 
 
@@ -219,8 +220,11 @@ class March:
         gone = _Lanes(lanes.which, trial.new, trial.rest, trial.end, least, count, units, following)
         stays = replace(lanes, least=np.where(refused, SHORTER * trial.size, lanes.least), tried=count)
         self._last, self._lanes, self._trial = lanes, stays.mixed(gone, taken), None
-        outcome[refused & (lanes.now + SHORTER * trial.size <= lanes.now)] = STEP_UNDERFLOW
-        ended |= outcome == STEP_UNDERFLOW
+        # where steps become so short the motion has a singularity, and never comes to the end of the span
+        smallest = np.where(refused, np.minimum(trial.wanted, SHORTER * trial.size), trial.wanted)
+        is_stuck = (smallest < LEAST_STEP * self.end_time) | (lanes.now + smallest <= lanes.now)
+        outcome[is_stuck] = STEP_UNDERFLOW
+        ended |= is_stuck
         self.outcomes[lanes.which[ended]] = outcome[ended]
         self.outcomes[lanes.which[~ended & (count >= self.problem.step_limit)]] = STEP_LIMIT
         self.outcomes[lanes.which[taken & (trial.end >= self.end_time)]] = FINE
@@ -262,7 +266,8 @@ class March:
         padded = np.minimum(np.arange(blocks * LANES), count - 1)
         given = np.vstack([units, states, times, self._constants[:, which]])[:, padded].reshape(-1, blocks, LANES)
         given = np.ascontiguousarray(given.transpose(1, 0, 2))
-        out = np.empty((blocks, self.order + 1, self.jet.shape.components, LANES))
+        # zeros, for the last coefficients of conditions and all but the first of pivots are not written
+        out = np.zeros((blocks, self.order + 1, self.jet.shape.components, LANES))
         to, of, work, program = (each.ctypes.data for each in (out, given, self._work, self._program))
         for block in range(blocks):
             self._call(to + block * out.strides[0], of + block * given.strides[0], work, program)
