@@ -76,7 +76,7 @@ async def test_what_was_derived_before_is_divided(client: httpx.AsyncClient) -> 
 async def test_an_endless_last_chapter_leaves_the_equations(
     client: httpx.AsyncClient, computed_by: BudgetOf, asked: str, shown: list[str]
 ) -> None:
-    computed_by("endless", 1.0)
+    computed_by("endless", 3.0 if asked == "ready" else 1.0)  # which a busy machine does not reach before it answers
     if asked == "ready":
         assert missing(await ask(client, 1.11, chapters="ready")) == [("model", "later")]
         return

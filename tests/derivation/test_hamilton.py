@@ -55,9 +55,11 @@ def test_the_factor_of_each_variation_is_the_equation_of_motion(
 CHAPTERS = {
     "dalembert-lagrange": (
         "configuration variation virtual-work kinetic-energy dalembert-to-lagrange decomposition lagrange constraints"
-        " model"
+        " contact model"
     ),
-    "hamilton": "configuration kinetic-energy variation virtual-work decomposition hamilton lagrange constraints model",
+    "hamilton": (
+        "configuration kinetic-energy variation virtual-work decomposition hamilton lagrange constraints contact model"
+    ),
 }
 
 
