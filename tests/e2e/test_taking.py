@@ -134,15 +134,11 @@ def test_a_film_plays_what_was_seen(lecture: Lecture, tmp_path: Path) -> None:
             return ink.getImageData(0, 0, film.videoWidth, film.videoHeight).data;
           };
           const first = frame();
+          film.currentTime = told;
+          await new Promise((resolve) => (film.onseeked = resolve));
+          const last = frame();
           let different = 0;
-          for (const part of [0.5, 0.75, 1]) {  // a busy machine may have written little of the motion at either end
-            film.currentTime = part * told;
-            await new Promise((resolve) => (film.onseeked = resolve));
-            const other = frame();
-            let pixels = 0;
-            for (let i = 0; i < first.length; i += 4) pixels += Math.abs(first[i] - other[i]) > 60;
-            different = Math.max(different, pixels);
-          }
+          for (let i = 0; i < first.length; i += 4) different += Math.abs(first[i] - last[i]) > 60;
           return [told, film.currentTime, film.videoWidth, film.videoHeight, different];
         }""",
         base64.b64encode(file.read_bytes()).decode(),

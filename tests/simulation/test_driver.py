@@ -91,17 +91,15 @@ def test_a_tolerance_is_the_error_of_the_answer(name: str, identifier: str, tole
     assert np.all(found.estimate.errors <= tolerance * np.maximum(1.0, np.abs(found.values).max()))
 
 
-@pytest.mark.one_in(4)
-@pytest.mark.parametrize("part", range(8))
-def test_the_estimate_is_rarely_a_hundred_times_too_large(part: int) -> None:
-    """In nine of ten runs it is within a factor of 100 at the middle sample, and in seven of ten of each few scenes."""
-    ratios, scenes = [], SCENES[part::8]
-    for name, identifier, tolerance in (case for case in ALL if case[0] in scenes):
+def test_the_estimate_is_rarely_a_hundred_times_too_large() -> None:
+    """In at least nine of ten runs it is within a factor of 100 at the middle sample."""
+    ratios = []
+    for name, identifier, tolerance in ALL:
         trusted, found = reference_of(name), simulated(get_scene(name), identifier, 10.0, tolerance=tolerance)
         own, other = trusted.common(found.times)
         true = np.maximum(trusted.errors_of(found), trusted.errors[own])[1:]
         ratios.append(np.median(found.estimate.errors[other][1:] / true))
-    assert np.mean(np.array(ratios) <= 100) >= 0.7
+    assert np.mean(np.array(ratios) <= 100) >= 0.9
 
 
 def test_what_double_precision_cannot_give_is_not_promised() -> None:
