@@ -246,6 +246,26 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/v1/experiments/uncertainty": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * A cloud of runs from starts within a tolerance, beside the linear propagation of that tolerance
+         * @description A cloud of runs from starts within a tolerance, beside the linear propagation of that tolerance.
+         */
+        post: operations["uncertainty"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/v1/experiments/work-precision": {
         parameters: {
             query?: never;
@@ -8007,6 +8027,319 @@ export interface components {
             distance: number[];
         };
         /**
+         * UncertainCoordinate
+         * @description How far the runs are spread in one coordinate; each column has an entry for each time.
+         */
+        UncertainCoordinate: {
+            /** Coordinate */
+            coordinate: string;
+            /**
+             * Reference
+             * @description the motion from the nominal start
+             */
+            reference: number[];
+            /**
+             * Mean
+             * @description over the runs
+             */
+            mean: (number | null)[];
+            /**
+             * Deviation
+             * @description standard deviation of the runs
+             */
+            deviation: (number | null)[];
+            /**
+             * Low
+             * @description lower end of the interval for that of infinitely many runs
+             */
+            low: (number | null)[];
+            /**
+             * High
+             * @description its upper end
+             */
+            high: (number | null)[];
+            /**
+             * Linear
+             * @description standard deviation by linear propagation; null: not known
+             */
+            linear: (number | null)[];
+            /**
+             * Nonlinearity
+             * @description what linear propagation leaves of the deviations of the runs, 0 to …
+             */
+            nonlinearity: (number | null)[];
+            /**
+             * Error
+             * @description median over the runs of the estimated error of integration
+             */
+            error: (number | null)[];
+            /**
+             * Quantiles
+             * @description of the runs, a column for each level
+             */
+            quantiles: (number | null)[][];
+            /**
+             * Range
+             * @description over which the nominal motion goes; of an angle no more than a turn
+             */
+            range: number;
+            /**
+             * Linear Until
+             * @description seconds; null: linear propagation describes the runs to the end
+             */
+            linear_until: number | null;
+            /**
+             * Error From
+             * @description seconds from which the error of integration counts; null: never
+             */
+            error_from: number | null;
+            /** @description null: not reached, or the nominal motion has no range */
+            horizon: components["schemas"]["UncertaintyHorizon"] | null;
+            /**
+             * Budget
+             * @description parts of the linear variance at the end of its reach, by quantity
+             */
+            budget: {
+                [key: string]: number;
+            };
+        };
+        /**
+         * UncertaintyAnswer
+         * @description Spread of a cloud of runs against linear propagation, by coordinate.
+         */
+        UncertaintyAnswer: {
+            /**
+             * Experiment
+             * @example work-precision
+             */
+            experiment: string;
+            /** Scene */
+            scene: string;
+            /**
+             * Title
+             * @description of the scene, by language
+             */
+            title: {
+                [key: string]: string;
+            };
+            /**
+             * Names
+             * @description how what the scene names is written; words by language
+             */
+            names: {
+                [key: string]: string | {
+                    [key: string]: string;
+                };
+            };
+            /**
+             * T End
+             * @description seconds of motion
+             */
+            t_end: number;
+            /**
+             * Parameters
+             * @description their values
+             */
+            parameters: {
+                [key: string]: number;
+            };
+            /**
+             * Initial
+             * @description where the motion began, by free coordinate
+             */
+            initial: {
+                [key: string]: components["schemas"]["Begin"];
+            };
+            /** Charts */
+            charts: components["schemas"]["Chart"][];
+            /** @description where the answer has times */
+            taken?: components["schemas"]["Measured"] | null;
+            /**
+             * Distribution
+             * @enum {string}
+             */
+            distribution: "normal" | "uniform";
+            /**
+             * Tolerances
+             * @description by quantity: standard deviation, or half the width if uniform
+             */
+            tolerances: {
+                [key: string]: number;
+            };
+            /**
+             * Share
+             * @description of the range: a prediction that is spread further is worth nothing
+             */
+            share: number;
+            /**
+             * Confidence
+             * @description of the intervals
+             */
+            confidence: number;
+            /**
+             * Levels
+             * @example [
+             *       0.05,
+             *       0.25,
+             *       0.5,
+             *       0.75,
+             *       0.95
+             *     ]
+             */
+            levels: number[];
+            /**
+             * T
+             * @description seconds
+             */
+            t: number[];
+            /**
+             * Reached
+             * @description how many runs have come to each time
+             */
+            reached: number[];
+            /**
+             * Runs
+             * @description so far
+             */
+            runs: number;
+            /**
+             * Statuses
+             * @description how many runs ended how
+             */
+            statuses: {
+                [key: string]: number;
+            };
+            /** Coordinates */
+            coordinates: components["schemas"]["UncertainCoordinate"][];
+        };
+        /**
+         * UncertaintyHorizon
+         * @description When a prediction is worth nothing, with what the number of runs leaves open.
+         */
+        UncertaintyHorizon: {
+            /**
+             * T
+             * @description seconds; by the standard deviation of the runs
+             */
+            t: number;
+            /**
+             * Early
+             * @description by the upper end of its interval
+             */
+            early: number;
+            /**
+             * Late
+             * @description by the lower end; null: not in this time
+             */
+            late: number | null;
+        };
+        /**
+         * UncertaintyRequest
+         * @description A cloud of runs from starts within a tolerance, beside the linear propagation of that tolerance.
+         * @example {
+         *       "runs": 60,
+         *       "scene": "double-pendulum",
+         *       "t_end": 4
+         *     }
+         * @example {
+         *       "runs": 60,
+         *       "scene": "pendulum",
+         *       "t_end": 2,
+         *       "tolerances": {
+         *         "l": 0.01
+         *       }
+         *     }
+         */
+        UncertaintyRequest: {
+            /**
+             * @description a built-in scene by its id, or a scene document of format 1
+             * @example elastic-pendulum
+             */
+            scene: components["schemas"]["Scene"];
+            /**
+             * Guides
+             * @description coordinates to be made functions of time
+             */
+            guides?: components["schemas"]["GuideChange"][];
+            /**
+             * Freeze
+             * @description coordinates to be held constant
+             * @example []
+             */
+            freeze?: string[];
+            /**
+             * Parameters
+             * @description values of parameters
+             * @example {
+             *       "l": 0.8
+             *     }
+             */
+            parameters?: components["schemas"]["UncertaintyRequestParameters"];
+            /**
+             * Initial
+             * @description where the motion begins, by coordinate
+             * @example {
+             *       "phi": {
+             *         "value": 0.5
+             *       }
+             *     }
+             */
+            initial?: components["schemas"]["UncertaintyRequestInitial"];
+            /**
+             * T End
+             * @description seconds of each motion
+             */
+            t_end?: number;
+            /**
+             * Lang
+             * @description language of the texts; else Accept-Language decides
+             */
+            lang?: ("de" | "en") | null;
+            /**
+             * Fresh
+             * @description whether to measure anew what was measured before, as Cache-Control: no-cache does
+             */
+            fresh?: boolean;
+            /**
+             * Uncertain
+             * @description what has the tolerance: initial values and rates, or others
+             */
+            uncertain?: components["schemas"]["UncertaintyRequestUncertain"];
+            /**
+             * Tolerance
+             * @description of initial values in their units, of parameters as a part of their values: standard deviation, or half the width
+             */
+            tolerance?: number;
+            /**
+             * Tolerances
+             * @description in place of both, tolerances in the units of the quantities: NAME of a coordinate or parameter, dot(NAME) of a rate, or as in ensembles initial.NAME.value, initial.NAME.rate, parameters.NAME; all others are exact
+             * @example {
+             *       "phi1": 0.01
+             *     }
+             */
+            tolerances?: components["schemas"]["UncertaintyRequestTolerances"];
+            /**
+             * Distribution
+             * @description of what is uncertain, each quantity by itself
+             */
+            distribution?: components["schemas"]["UncertaintyRequestDistribution"];
+            /**
+             * Runs
+             * @description runs of the cloud
+             */
+            runs?: number;
+            /**
+             * Seed
+             * @description of the random numbers
+             */
+            seed?: number;
+            /**
+             * Share
+             * @description of the range of the motion: what is spread further is worth nothing
+             */
+            share?: number;
+        };
+        /**
          * ValueFunctional
          * @description The functional that takes the value of the expression at an instant: I(x) = x(t₀).
          */
@@ -8645,6 +8978,39 @@ export interface components {
             [key: string]: components["schemas"]["InitialValue"];
         };
         /**
+         * UncertaintyRequestParameters
+         * @default {}
+         */
+        UncertaintyRequestParameters: {
+            [key: string]: number;
+        };
+        /**
+         * UncertaintyRequestInitial
+         * @default {}
+         */
+        UncertaintyRequestInitial: {
+            [key: string]: components["schemas"]["InitialValue"];
+        };
+        /**
+         * UncertaintyRequestUncertain
+         * @default start
+         * @enum {string}
+         */
+        UncertaintyRequestUncertain: "start" | "values" | "parameters" | "all";
+        /**
+         * UncertaintyRequestTolerances
+         * @default {}
+         */
+        UncertaintyRequestTolerances: {
+            [key: string]: number;
+        };
+        /**
+         * UncertaintyRequestDistribution
+         * @default normal
+         * @enum {string}
+         */
+        UncertaintyRequestDistribution: "normal" | "uniform";
+        /**
          * WorkPrecisionRequestParameters
          * @default {}
          */
@@ -9135,6 +9501,36 @@ export interface operations {
                 };
                 content: {
                     "application/json": components["schemas"]["StabilityMapAnswer"];
+                    "text/event-stream": string;
+                    "text/html": string;
+                    "text/csv": string;
+                };
+            };
+        };
+    };
+    uncertainty: {
+        parameters: {
+            query?: never;
+            header?: {
+                /** @description `no-cache` measures anew what was measured before */
+                "Cache-Control"?: string;
+            };
+            path?: never;
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["UncertaintyRequest"];
+            };
+        };
+        responses: {
+            /** @description the answer */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["UncertaintyAnswer"];
                     "text/event-stream": string;
                     "text/html": string;
                     "text/csv": string;

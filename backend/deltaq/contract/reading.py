@@ -52,6 +52,7 @@ CODES: Mapping[str, str] = MappingProxyType(
         "ensemble-unlike": "ensemble-unlike",
         "ensemble-too-large": "ensemble-too-large",
         "section-too-large": "section-too-large",
+        "uncertainty-too-large": "uncertainty-too-large",
         "request-outside": "request-outside",
         "request-not-text": "request-not-text",
         "request-not-number": "request-not-number",

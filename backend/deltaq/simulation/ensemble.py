@@ -67,8 +67,8 @@ class EnsembleMotion:
     """What came of all motions at `times`, shape (samples,), NaN where a run did not come.
 
     `values` and `rates` are q and q̇ of the free coordinates, shape (motions, samples, n).
-    `errors`, shape (motions, samples), estimate the largest error of any coordinate; `worst`, shape (motions,), is the
-    largest in the measure of a tolerance. `steps`, shape (motions,), are those of the runs returned.
+    `errors`, of the same shape, estimate those of the values; `worst`, shape (motions,), is the largest in the measure
+    of a tolerance. `steps`, shape (motions,), are those of the runs returned.
     """
 
     times: Floats
@@ -186,9 +186,7 @@ def _judged(ensemble: Ensemble, coarse: Members, fine: Members, factor: float, t
             strict=True,
         )
     )
-    return EnsembleMotion(
-        coarse.times, values, coarse.samples[:, :, n : 2 * n], errors.max(axis=2), worst, coarse.steps, outcomes
-    )
+    return EnsembleMotion(coarse.times, values, coarse.samples[:, :, n : 2 * n], errors, worst, coarse.steps, outcomes)
 
 
 def _outcome(problem: Problem, code: int, end: float, horizon: float, worst: float, tolerance: float) -> Outcome:
@@ -219,14 +217,15 @@ def _one_by_one(ensemble: Ensemble, tolerance: float, flag: Flag, tell: Callable
     problem, count = ensemble.problem, len(ensemble)
     times = np.linspace(0.0, problem.t_end, problem.samples)
     shape = (count, len(times), problem.degrees)
-    values, rates, errors = np.full(shape, np.nan), np.full(shape, np.nan), np.full(shape[:2], np.nan)
+    values, rates, errors = (np.full(shape, np.nan) for _ in range(3))
     worst, steps, outcomes = np.zeros(count), np.zeros(count, dtype=np.int64), list[Outcome]()
     for index in range(count):
         found = simulate(ensemble.member(index), get_method("taylor"), tolerance=tolerance, cancelled=flag)
         rows = min(int(np.searchsorted(times, found.times[-1] * (1.0 + 1e-12), side="right")), len(found.times))
         values[index, :rows], rates[index, :rows] = found.values[:rows], found.rates[:rows]
         if found.estimate is not None:
-            errors[index, :rows], worst[index] = found.estimate.errors[:rows], found.estimate.worst
+            errors[index, :rows] = found.estimate.errors[:rows, None]  # the largest of any coordinate
+            worst[index] = found.estimate.worst
         steps[index] = found.cost.steps
         told = {} if found.event is None else {"title": problem.model.scene.events[found.event.index].name}
         outcomes.append(replace(found.outcome, parameters={**found.outcome.parameters, **told}))

@@ -107,7 +107,8 @@ def _answered(asked: EnsembleRequest, scene: Scene, varied: Varied, found: Ensem
         "columns": asked.columns,
     }
     if asked.runs:
-        values = [rounded(one, errors) for one, errors in zip(found.values, np.nan_to_num(found.errors), strict=True)]
+        errors = np.nan_to_num(found.errors).max(axis=2)
+        values = [rounded(one, each) for one, each in zip(found.values, errors, strict=True)]
         answer["coordinates"] = {
             name: [_reached(np.ascontiguousarray(one[:, i]), written) for one in values] for i, name in enumerate(names)
         }

@@ -7,6 +7,7 @@ import fidelity from "./experiments/fidelity.js";
 import poincareSection from "./experiments/poincare-section.js";
 import stabilityMap from "./experiments/stability-map.js";
 import stability from "./experiments/stability.js";
+import uncertainty from "./experiments/uncertainty.js";
 import workPrecision from "./experiments/work-precision.js";
 import { bounded, duration, optionOf } from "./options.js";
 
@@ -22,6 +23,7 @@ const EXPERIMENTS = {
   "stability-map": stabilityMap,
   chaos,
   "poincare-section": poincareSection,
+  uncertainty,
   fidelity,
 };
 

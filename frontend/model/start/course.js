@@ -82,6 +82,7 @@ export const COURSE = [
       measured("upright", "stability-map"),
       measured("horizon", "chaos"),
       measured("section", "poincare-section"),
+      measured("uncertainty", "uncertainty"),
       measured("least", "fidelity"),
     ],
   },
