@@ -165,6 +165,7 @@ class Draw(random.Random):
             "chaos": {"apart": self.often(1e-6)},
             "fidelity": {"tolerance": self.often(0.01)},
             "poincare-section": {"energy": self.number(), "count": 2} if self.random() < 0.5 else {"count": 2},
+            "uncertainty": {"tolerance": self.often(0.01), "runs": 30},
             "stability-map": {
                 axis: {"parameter": "omega", "from": self.number(), "to": self.number(), "count": 4} for axis in "xy"
             },

@@ -37,6 +37,7 @@ SMALL: dict[str, dict[str, Any]] = {key: {"scene": "pendulum", "t_end": 1.0} for
     "chaos": {"scene": "double-pendulum", "t_end": 3.0, "map": True, "count": 16},
     "fidelity": {"scene": "elastic-pendulum", "t_end": 2.0},
     "poincare-section": {"scene": "coupled-pendulums", "t_end": 6.0, "count": 2, "crossings": 5},
+    "uncertainty": {"scene": "coupled-pendulums", "t_end": 3.0, "runs": 40},
 }
 
 

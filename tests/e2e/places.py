@@ -11,7 +11,16 @@ from playwright.sync_api import Page
 
 import deltaq.scenes
 
-LABS = ("work-precision", "convergence", "energy-drift", "stability", "chaos", "poincare-section", "fidelity")
+LABS = (
+    "work-precision",
+    "convergence",
+    "energy-drift",
+    "stability",
+    "chaos",
+    "poincare-section",
+    "uncertainty",
+    "fidelity",
+)
 CLASS = """student,scene,task,answer,syntax,line
 ada,pendulum,kinetic-energy,m*l^2*dot(phi)^2,plain,1
 ada,pendulum,equation:phi,2*m*l^2*ddot(phi) + m*g*l*sin(phi) = 0,plain,2

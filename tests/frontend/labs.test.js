@@ -58,7 +58,7 @@ test("a problem in the stream, a refusal and a stream that breaks off are failur
   assert.equal((await failing(answering("event: part\ndata: {}\n\n"))).status, 0);
 });
 
-const ASKED = { ...NOTHING, lab: "stability-map", scene: "kapitza", duration: 5, peers: true, steps: 1000, plane: "phi", direction: "both", horizontal: "", vertical: "dot(phi)^2", energy: -1.5, grid: 4, crossings: 80, skip: 7, at: /** @type {const} */ ("rest"), stiffness: "k", x: { parameter: "omega", from: -10, to: 120.5 }, y: { parameter: "y0", from: 0.01, to: 0.2 }, flips: false, allowed: 0.5, parameters: { l: 0.4 }, initial: { phi: { value: -1.5, rate: 2 } } };
+const ASKED = { ...NOTHING, lab: "stability-map", scene: "kapitza", duration: 5, peers: true, steps: 1000, plane: "phi", direction: "both", horizontal: "", vertical: "dot(phi)^2", energy: -1.5, grid: 4, crossings: 80, skip: 7, uncertain: "all", spread: 0.02, tolerances: "phi = 0.1; dot(phi) = 0,25, l = x", distribution: "uniform", runs: 50, share: 10, at: /** @type {const} */ ("rest"), stiffness: "k", x: { parameter: "omega", from: -10, to: 120.5 }, y: { parameter: "y0", from: 0.01, to: 0.2 }, flips: false, allowed: 0.5, parameters: { l: 0.4 }, initial: { phi: { value: -1.5, rate: 2 } } };
 
 test("every question has an address, and the usual one a short one", () => {
   assert.deepEqual(readQuestion(`?${writeQuestion(ASKED)}`), ASKED);
@@ -70,12 +70,15 @@ test("an address that makes no sense is read as the usual", () => {
 });
 
 test("each lab asks for what it knows", () => {
-  const bodies = Object.fromEntries(["work-precision", "convergence", "energy-drift", "stability", "stability-map", "chaos", "poincare-section", "fidelity"].map((lab) => [lab, Object.keys(requestOf({ ...ASKED, lab }, "kapitza", "en")).filter((key) => !["scene", "parameters", "initial", "lang"].includes(key)).sort()]));
+  const bodies = Object.fromEntries(["work-precision", "convergence", "energy-drift", "stability", "stability-map", "chaos", "poincare-section", "uncertainty", "fidelity"].map((lab) => [lab, Object.keys(requestOf({ ...ASKED, lab }, "kapitza", "en")).filter((key) => !["scene", "parameters", "initial", "lang"].includes(key)).sort()]));
   assert.deepEqual(bodies, {
     "work-precision": ["peers", "t_end"], convergence: ["t_end"], "energy-drift": ["steps"], stability: ["at", "stiffness", "t_end"],
-    "stability-map": ["x", "y"], chaos: ["map", "t_end"], "poincare-section": ["count", "direction", "energy", "plane", "skip", "t_end", "vertical"], fidelity: ["t_end", "tolerance"],
+    "stability-map": ["x", "y"], chaos: ["map", "t_end"], "poincare-section": ["count", "direction", "energy", "plane", "skip", "t_end", "vertical"],
+    uncertainty: ["distribution", "runs", "share", "t_end", "tolerance", "tolerances", "uncertain"], fidelity: ["t_end", "tolerance"],
   });
   assert.equal(/** @type {any} */ (requestOf({ ...ASKED, lab: "fidelity" }, "kapitza", "en")).tolerance, 0.005);
+  const body = /** @type {any} */ (requestOf({ ...ASKED, lab: "uncertainty" }, "kapitza", "en"));
+  assert.deepEqual([body.tolerances, body.share], [{ phi: 0.1, "dot(phi)": 0.25, l: NaN }, 0.1]);
 });
 
 test("a place on a map is two parameters, or two angles at rest", () => {

@@ -22,6 +22,7 @@ LEVELS = (0.05, 0.25, 0.5, 0.75, 0.95)
 LINEAR = 0.3  # what linear propagation may leave of the deviations: the spread is wrong by some 5 % then
 COUNTS = 0.1  # of the spread: an error of integration that counts
 FEWEST = 20  # runs, for a spread
+BESIDE = 5  # samples to each side, over which that is looked at
 NOISE = 4.0  # times the error of integration: what is not more is no deviation from anything
 
 
@@ -98,19 +99,26 @@ def spread(cloud: Cloud, flow: Propagation, places: Integers, sigmas: Floats, co
     n, samples = cloud.values.shape[2], len(flow.times)
     both = (cloud.values[:, :samples, coordinate], coordinate), (cloud.rates[:, :samples, coordinate], n + coordinate)
     (mean, deviation, low, high), of_rate = deviations_of(both[0][0]), np.nanstd(both[1][0], axis=0, ddof=1)
-    pace = _pace(deviation, of_rate)
+    pace = min(_pace(deviation, of_rate), float(flow.times[-1]))
     unlike = [
         np.sqrt(np.nanmean((seen - flow.states[:, row] - flow.carried(cloud.deviations[:, places], row)) ** 2, axis=0))
         for seen, row in both
     ]
     linear = [np.sqrt(flow.variances(sigmas, row).sum(axis=1)) for _, row in both]
     error = np.nanmedian(cloud.errors[:, :samples, coordinate], axis=0)
-    left = np.hypot(unlike[0], pace * unlike[1])
+    left, carried = (_nearby(np.hypot(one[0], pace * one[1])) for one in (unlike, linear))
     with np.errstate(invalid="ignore", divide="ignore"):
-        nonlinearity = np.where(left <= NOISE * error, 0.0, left / np.hypot(linear[0], pace * linear[1]))
+        nonlinearity = np.where(left <= NOISE * error, 0.0, left / carried)
     quantiles = np.nanquantile(both[0][0], LEVELS, axis=0)
     size = np.hypot(deviation, pace * of_rate)
     return Spread(mean, deviation, low, high, quantiles, size, linear[0], nonlinearity, error)
+
+
+def _nearby(sizes: Floats) -> Floats:
+    """Root mean square over the samples beside each: where the motions meet for a moment, little is spread at all."""
+    beside = np.ones(2 * BESIDE + 1)
+    total, count = (np.convolve(one, beside, mode="same") for one in (sizes**2, np.ones_like(sizes)))
+    return np.asarray(np.sqrt(total / count))
 
 
 def _pace(values: Floats, rates: Floats) -> float:

@@ -2,7 +2,7 @@
 
 Ḋ = J D + B, J = ∂f/∂y and B = ∂f/∂p along the motion, D(0) = (1, 0). So a covariance P₀ of the start becomes D P₀ Dᵀ.
 The steps are those of Gauss with three stages, of order 6, which no stiffness makes unstable; so many that twice as
-many say the same.
+many say the same. Where forces may jump, D jumps with them in a way that J does not tell: there neighbours are run.
 Source: Hairer, Nørsett, Wanner, Solving Ordinary Differential Equations I, I.14; Hairer, Wanner, …II, IV.5.
 """
 
@@ -15,6 +15,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from ..simulation.derivatives import derivatives
+from ..simulation.ensemble import Ensemble, run_ensemble
 from ..simulation.library import get_method
 from ..simulation.problem import Floats, Problem
 from ..simulation.run import run
@@ -26,6 +27,7 @@ MOST_STEPS = 16_384
 TOGETHER = 256  # steps
 AGREE, KNOWN = 1e-7, 1e-3  # difference of D by so many and by twice as many steps: to stop, and to be shown
 LARGEST = 1e100
+NEAR, LEAST, ACCURATE = 1e-3, 1e-7, 1e-12  # neighbours: over the tolerance, over the values; error of their motions
 
 _ROOT = math.sqrt(15.0)
 C = np.array([0.5 - _ROOT / 10.0, 0.5, 0.5 + _ROOT / 10.0])
@@ -70,6 +72,8 @@ def propagated(problem: Problem, samples: int, parameters: Sequence[int], sizes:
 
     `sizes`, shape (2n + parameters,), are deviations that are to be carried: nothing smaller needs to be resolved.
     """
+    if problem.model.recurrences.conditions:
+        return _by_neighbours(replace(problem, samples=samples), tuple(parameters), sizes)
     linear = _Linear(problem, samples, tuple(parameters), sizes)
     parts = linear.parts()
     coarse = linear.solved(parts)
@@ -82,6 +86,23 @@ def propagated(problem: Problem, samples: int, parameters: Sequence[int], sizes:
         coarse = fine
     known = (apart <= KNOWN).cumprod(axis=0, dtype=bool)[: len(fine.times), None, None]
     return replace(fine, matrices=np.where(known, fine.matrices, np.nan))
+
+
+def _by_neighbours(problem: Problem, parameters: tuple[int, ...], sizes: Floats) -> Propagation:
+    """D by central differences of motions a little apart; a quantity of size 0 has no neighbours, its column is 0."""
+    n, start = problem.degrees, np.array([*problem.values, *problem.rates, *problem.parameters])
+    places = np.concatenate([np.arange(2 * n), 2 * n + np.array(parameters, dtype=np.int64)])
+    nudges = np.where(sizes > 0.0, np.maximum(NEAR * sizes, LEAST * np.abs(start[places])), 0.0)
+    steps = np.zeros((len(places), len(start)))
+    steps[np.arange(len(places)), places] = nudges
+    rows = np.vstack([start, start + steps, start - steps])
+    found = run_ensemble(Ensemble(problem, rows[:, : 2 * n].copy(), rows[:, 2 * n :].copy()), ACCURATE)
+    states = np.concatenate([found.values, found.rates], axis=2)
+    ahead, behind = states[1 : 1 + len(places)], states[1 + len(places) :]
+    widths = np.where(nudges > 0.0, 2.0 * nudges, 1.0)[:, None, None]
+    known = int(np.isfinite(states[0]).all(axis=1).cumprod().sum())
+    matrices = np.moveaxis((ahead - behind) / widths, 0, 2)
+    return Propagation(found.times[:known], states[0, :known], matrices[:known])
 
 
 def _apart(coarse: Floats, fine: Floats) -> Floats:

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+import math
+from collections.abc import Iterable, Iterator, Mapping
 from typing import Any
 
 from .chart import INK, PALETTE, Chart, Result, Trace, axis, chart
@@ -12,18 +13,22 @@ KEY = "labs.uncertainty"
 MOST_BANDS = 4  # coordinates whose quantiles are drawn
 ENDED_WELL = frozenset({"ok", "tolerance_missed", "horizon_reached"})
 PALE, PALER = 0.30, 0.15
+MOST_TICKS = 8.0  # powers of ten at an axis
+BEYOND = 10.0  # times the largest spread: linear propagation that says more is not drawn
+HIGHEST = 2.5  # spread over linear spread, on its axis
 
 
 def charts(result: Result, say: Say) -> list[Chart]:
-    """The spreads of all coordinates together, then the quantiles of each."""
+    """The spreads of all coordinates together, then over the linear ones, then the quantiles of each."""
     bands = [_bands(result, number, say) for number in range(min(len(result["coordinates"]), MOST_BANDS))]
-    return [_spreads(result, say), *bands]
+    return [_spreads(result, say), _ratios(result, say), *bands]
 
 
 def _spreads(result: Result, say: Say) -> Chart:
     traces = [trace for number in range(len(result["coordinates"])) for trace in _spread(result, number, say)]
-    axes = {"xaxis": axis(say("labs.axis.t")), "yaxis": axis(say(f"{KEY}.deviation-axis"), log=True)}
-    caption = " ".join(_told(result, say))
+    decades = _decades(y for trace in traces for y in trace["y"])
+    y_axis = axis(say(f"{KEY}.deviation-axis"), log=True, dtick=max(1, round(decades / MOST_TICKS)))
+    axes, caption = {"xaxis": axis(say("labs.axis.t")), "yaxis": y_axis}, " ".join(_told(result, say))
     return chart("uncertainty-spread", say(f"{KEY}.spread"), caption, traces, **axes)
 
 
@@ -33,7 +38,9 @@ def _spread(result: Result, number: int, say: Say) -> Iterator[Trace]:
     symbol = str(called(result, told["coordinate"]))
     yield _filled(t, told["low"], told["high"], color, PALE, symbol, say(f"{KEY}.interval", name=symbol))
     yield _line(t, told["deviation"], color, symbol, say(f"{KEY}.cloud", name=symbol), "solid")
-    yield _line(t, told["linear"], color, symbol, say(f"{KEY}.linear", name=symbol), "dash")
+    most = BEYOND * max((one for one in told["high"] if one is not None), default=0.0)
+    linear = [one if one is None or one <= most else None for one in told["linear"]]
+    yield _line(t, linear, color, symbol, say(f"{KEY}.linear", name=symbol), "dash")
     yield _line(t, told["error"], color, symbol, say(f"{KEY}.error", name=symbol), "dot")
     horizon = told["horizon"]
     places = {"linear-ends": (told["linear_until"], "diamond"), "worthless": (horizon and horizon["t"], "x")}
@@ -41,6 +48,31 @@ def _spread(result: Result, number: int, say: Say) -> Iterator[Trace]:
         if time is not None:
             name = say(f"{KEY}.{key}", name=symbol)
             yield _mark(time, _at(t, told["deviation"], time), color, symbol, name, mark)
+
+
+def _decades(numbers: Iterable[float | None]) -> float:
+    """How many powers of ten a logarithmic axis has to show."""
+    known = [one for one in numbers if one is not None and one > 0.0]
+    return math.log10(max(known) / min(known)) if known else 0.0
+
+
+def _ratios(result: Result, say: Say) -> Chart:
+    """The spread of the runs over that of linear propagation, with its interval."""
+    t, traces = result["t"], list[Trace]()
+    for number, told in enumerate(result["coordinates"]):
+        color, symbol = PALETTE[number % len(PALETTE)], str(called(result, told["coordinate"]))
+        rows = [_over(told[name], told["linear"]) for name in ("low", "high", "deviation")]
+        traces.append(_filled(t, rows[0], rows[1], color, PALE, symbol, say(f"{KEY}.interval", name=symbol)))
+        traces.append(_line(t, rows[2], color, symbol, say(f"{KEY}.cloud", name=symbol), "solid"))
+    axes = {"xaxis": axis(say("labs.axis.t")), "yaxis": axis(say(f"{KEY}.ratio-axis"), range=[0.0, HIGHEST])}
+    return chart("uncertainty-ratio", say(f"{KEY}.ratio"), say(f"{KEY}.ratio-caption"), traces, **axes)
+
+
+def _over(numbers: list[Any], others: list[Any]) -> list[Any]:
+    """Quotients, none where one of both is unknown or nothing is to be seen."""
+    pairs = zip(numbers, others, strict=True)
+    found = [a / b if a is not None and b is not None and b > 0.0 else None for a, b in pairs]
+    return [None if one is None or one > 2.0 * HIGHEST else one for one in found]
 
 
 def _line(t: list[float], y: list[Any], color: str, group: str, name: str, dash: str) -> Trace:
