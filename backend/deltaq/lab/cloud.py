@@ -28,7 +28,7 @@ NOISE = 4.0  # times the error of integration: what is not more is no deviation 
 
 @dataclass(frozen=True)
 class Cloud:
-    """Starts and parameters of the runs as deviations of (q, q̇, p), shape (runs, quantities), and what came of them.
+    """Starts and parameters of the runs as `deviations` of (q, q̇, p), shape (runs, quantities), and what came of them.
 
     `values` and `rates`, shape (runs, samples, n), are NaN behind the end of a run; `errors` are those of the values.
     """
@@ -58,7 +58,7 @@ def drawn(sizes: Floats, runs: int, seed: int, *, is_normal: bool) -> Floats:
 
 
 def flown(problem: Problem, deviations: Floats, tolerance: float, together: int) -> Iterator[Cloud]:
-    """The cloud as it grows by so many runs."""
+    """The cloud as it grows by so many runs; `deviations` has shape (runs, quantities)."""
     start = np.array([*problem.values, *problem.rates, *problem.parameters])
     split, found = 2 * problem.degrees, list[EnsembleMotion]()
     for first in range(0, len(deviations), together):
@@ -76,7 +76,8 @@ def flown(problem: Problem, deviations: Floats, tolerance: float, together: int)
 class Spread:
     """Of one coordinate at all samples: what the cloud and the linear propagation say.
 
-    All have shape (samples,) but `quantiles`, (levels, samples). `size` is the spread of the cloud in phase space, in
+    `mean`, `deviation`, its interval from `low` to `high`, its `linear` prediction, the `nonlinearity` that this leaves
+    and the `error` of integration have shape (samples,), `quantiles` (levels, samples). `size`, shape (samples,), is the spread of the cloud in phase space, in
     the unit of the coordinate, which does not vanish where the motions meet.
     """
 
@@ -163,7 +164,10 @@ def usable(cloud: Cloud, flow: Propagation) -> int:
 
 
 def first_above(times: Floats, values: Floats, bound: float | Floats) -> float | None:
-    """The first time at which values exceed a bound, between two samples linearly; None if they never do."""
+    """The first time at which values exceed a bound, between two samples linearly; None if they never do.
+
+    `times`, `values` and the bound, if it is no number, have shape (samples,).
+    """
     with np.errstate(invalid="ignore"):
         excess = np.nan_to_num(values - bound, nan=-np.inf)
     above: Truths = excess > 0.0

@@ -89,7 +89,7 @@ class UncertaintyRequest(ExperimentRequest):
     )
     distribution: Distribution = Field("normal", description="of what is uncertain, each quantity by itself")
     runs: int = Field(400, ge=30, le=MOST_RUNS, description="runs of the cloud")
-    seed: int = Field(0, ge=0, le=2**53, description="of the random numbers")
+    seed: int = Field(0, ge=0, le=2**31 - 1, description="of the random numbers")
     share: float = Field(
         0.25, gt=0.0, le=1.0, description="of the range of the motion: what is spread further is worth nothing"
     )

@@ -15,6 +15,7 @@ ENDED_WELL = frozenset({"ok", "tolerance_missed", "horizon_reached"})
 PALE, PALER = 0.30, 0.15
 MOST_TICKS = 8.0  # powers of ten at an axis
 BEYOND = 10.0  # times the largest spread: linear propagation that says more is not drawn
+FURTHER = 1.5  # times the reach of linear propagation: quotients behind tell nothing
 HIGHEST = 2.5  # spread over linear spread, on its axis
 
 
@@ -58,14 +59,21 @@ def _decades(numbers: Iterable[float | None]) -> float:
 
 def _ratios(result: Result, say: Say) -> Chart:
     """The spread of the runs over that of linear propagation, with its interval."""
-    t, traces = result["t"], list[Trace]()
+    t, traces = result["t"][: _count_of_ratios(result)], list[Trace]()
     for number, told in enumerate(result["coordinates"]):
         color, symbol = PALETTE[number % len(PALETTE)], str(called(result, told["coordinate"]))
-        rows = [_over(told[name], told["linear"]) for name in ("low", "high", "deviation")]
+        rows = [_over(told[name][: len(t)], told["linear"][: len(t)]) for name in ("low", "high", "deviation")]
         traces.append(_filled(t, rows[0], rows[1], color, PALE, symbol, say(f"{KEY}.interval", name=symbol)))
         traces.append(_line(t, rows[2], color, symbol, say(f"{KEY}.cloud", name=symbol), "solid"))
     axes = {"xaxis": axis(say("labs.axis.t")), "yaxis": axis(say(f"{KEY}.ratio-axis"), range=[0.0, HIGHEST])}
     return chart("uncertainty-ratio", say(f"{KEY}.ratio"), say(f"{KEY}.ratio-caption"), traces, **axes)
+
+
+def _count_of_ratios(result: Result) -> int:
+    """As many times as linear propagation means something, and some more to see it fail."""
+    ends = [told["linear_until"] for told in result["coordinates"]]
+    last = result["t"][-1] if None in ends else FURTHER * max(ends)
+    return max(2, len([t for t in result["t"] if t <= last]))
 
 
 def _over(numbers: list[Any], others: list[Any]) -> list[Any]:
