@@ -77,8 +77,8 @@ class Spread:
     """Of one coordinate at all samples: what the cloud and the linear propagation say.
 
     `mean`, `deviation`, its interval from `low` to `high`, its `linear` prediction, the `nonlinearity` that this leaves
-    and the `error` of integration have shape (samples,), `quantiles` (levels, samples). `size`, shape (samples,), is the
-    spread of the cloud in phase space, in the unit of the coordinate, which does not vanish where the motions meet.
+    and the `error` of integration have shape (samples,), `quantiles` (levels, samples). `size`, shape (samples,), is
+    the spread of the cloud in phase space, in the unit of the coordinate, which does not vanish where the motions meet.
     """
 
     mean: Floats
