@@ -122,7 +122,8 @@ function watch(wish, address = "") {
 const section = (name) => get().catalog[name] ?? {};
 /** Every experiment that there are words for, in their order. */
 const labs = () => Object.keys(/** @type {{experiments?: object}} */ (section("labs")).experiments ?? {});
-const speech = () => translator({ ...section("page"), labs: section("labs"), ladder: section("ladder") });
+const speech = () =>
+  translator({ ...section("page"), labs: section("labs"), ladder: section("ladder"), errors: section("errors") });
 
 /** @param {string} id */
 function methodTitle(id) {
@@ -166,7 +167,7 @@ async function open(scene) {
 /** @param {import("./model/types.js").Lang} wanted */
 async function speak(wanted) {
   move({ lang: wanted });
-  const catalog = await api.catalog(wanted, "labs", "ladder", "methods").catch(() => null);
+  const catalog = await api.catalog(wanted, "labs", "ladder", "methods", "errors").catch(() => null);
   if (catalog && lang() === wanted) set({ catalog });
 }
 

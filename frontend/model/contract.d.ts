@@ -3496,6 +3496,14 @@ export interface components {
              */
             points: components["schemas"]["MethodRun"][];
             /**
+             * Minimal
+             * @description likewise in minimal coordinates, for scenes with constraints
+             * @default []
+             */
+            minimal: components["schemas"]["MethodRun"][];
+            /** @description what multipliers cost, where there are any */
+            multipliers?: components["schemas"]["MultiplierComparison"] | null;
+            /**
              * Least
              * @description id of the least rung that will do; empty where that cannot be told
              */
@@ -4698,6 +4706,51 @@ export interface components {
             value: number;
             /** Rate */
             rate: number;
+        };
+        /**
+         * MultiplierComparison
+         * @description A motion with multipliers held against the same in minimal coordinates, whose q̈ tells λ by M q̈ − f = Aᵀλ.
+         */
+        MultiplierComparison: {
+            /**
+             * T
+             * @description seconds
+             */
+            t: number[];
+            /**
+             * Apart
+             * @description largest difference of a coordinate
+             */
+            apart: number[];
+            /**
+             * Estimate
+             * @description of it, by the error estimates of both
+             */
+            estimate: number[];
+            /**
+             * Gap
+             * @description largest |g|: how far the constraints are missed
+             */
+            gap: number[];
+            /**
+             * Errors
+             * @description of each multiplier, as a part of its largest value
+             */
+            errors: {
+                [key: string]: number[];
+            };
+            /**
+             * Estimates
+             * @description of these, by the error estimate
+             */
+            estimates: {
+                [key: string]: number[];
+            };
+            /**
+             * Steps
+             * @description what a step costs, by method
+             */
+            steps: components["schemas"]["StepTimes"][];
         };
         /**
          * NamedFunction
@@ -7387,6 +7440,24 @@ export interface components {
             cancelled: string[];
             /** Substeps */
             substeps: components["schemas"]["Step"][];
+        };
+        /**
+         * StepTimes
+         * @description Seconds that one step of a method takes.
+         */
+        StepTimes: {
+            /** Method */
+            method: string;
+            /**
+             * Kept
+             * @description with multipliers
+             */
+            kept: number;
+            /**
+             * Minimal
+             * @description in minimal coordinates
+             */
+            minimal: number;
         };
         /**
          * StickingResult

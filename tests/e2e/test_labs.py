@@ -104,6 +104,15 @@ def test_the_least_rung_is_named_and_opened_as_a_scene(lecture: Lecture) -> None
     lecture.steps.first.wait_for()
 
 
+def test_what_multipliers_cost_is_charted_beside_minimal_coordinates(lecture: Lecture) -> None:
+    page = measured(opened(lecture, "lab=fidelity&scene=cartesian-pendulum&t=2")).page
+    expect(page.locator("tr.least th")).to_have_text("minimal coordinates")
+    expect(page.locator("figure[data-chart=fidelity-alike] figcaption")).to_contain_text("in minimal coordinates")
+    expect(page.locator(".verdict").last).to_contain_text("Both move alike: they differ by")
+    ratio = page.locator("table", has_text="Time of one step").locator("tbody tr").first.locator("td").last
+    expect(ratio).to_have_text(re.compile(r"^[\d.]+$"))
+
+
 def test_bad_values_are_told_and_nothing_is_lost(lecture: Lecture) -> None:
     page = opened(lecture, "lab=stability-map&scene=pendulum").page
     page.locator("form.question button.main").click()

@@ -45,9 +45,15 @@ class Subject:
 
 def _names(scene: Scene) -> Document:
     """How what the scene names is to be written: symbols of quantities, words for its parts in every language."""
-    latex = {one.name: one.latex for one in scene.coordinates} | {one.name: one.latex for one in scene.parameters}
     words: Document = {name: plainly(label) for name, label in scene.labels.items()}
-    return words | {name: in_unicode(symbol or latex_of(name)) for name, symbol in latex.items()}
+    return words | symbols_of(scene)
+
+
+def symbols_of(scene: Scene) -> Document:
+    """The symbols of coordinates, parameters and multipliers."""
+    latex = {one.name: one.latex for one in scene.coordinates} | {one.name: one.latex for one in scene.parameters}
+    latex |= {one.name: one.latex for one in scene.multipliers}
+    return {name: in_unicode(symbol or latex_of(name)) for name, symbol in latex.items()}
 
 
 def subject_of(request: ExperimentRequest, samples: int = 501) -> Subject:

@@ -1,16 +1,18 @@
-"""A coordinate put in by the others: q := X(other coordinates, t), and q̇ by the chain rule."""
+"""Coordinates put in by others: q := X(other coordinates, t), and q̇ by the chain rule."""
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, fields, replace
 from typing import TypeVar
 
 from ..language.expression import Expression
+from ..mechanics.coordinate import Coordinate
 from ..mechanics.scene import Scene, names_of
 from .functions import Expr
 from .symbols import Symbols
 from .symengine_algebra import SymEngineAlgebra, to_symengine
+from .turned import Turned, Waves
 from .writing import Writer
 
 T = TypeVar("T")
@@ -21,8 +23,25 @@ def eliminated(scene: Scene, coordinate: str, value: Expression) -> Scene:
 
     Labels and drawing stay. Raises ExpressionError where an expression becomes longer than a scene may have.
     """
-    left = tuple(each for each in scene.coordinates if each.name != coordinate)
-    elimination = _Elimination.of(scene, coordinate, value)
+    symbols = Symbols.of(scene)
+    return substituted(scene, symbols, {coordinate: to_symengine(value.tree, symbols)})
+
+
+def substituted(
+    scene: Scene,
+    symbols: Symbols,
+    values: Mapping[str, Expr],
+    added: tuple[Coordinate, ...] = (),
+    waves: Mapping[str, Waves] | None = None,
+) -> Scene:
+    """The scene without several coordinates, by their `values` in what is left and in coordinates that are `added`.
+
+    `symbols` are those that the values are written in, `waves` sines and cosines of angles among them. Constraints,
+    labels and drawing stay as they are. Raises ExpressionError where an expression becomes longer than a scene may
+    have.
+    """
+    left = (*(each for each in scene.coordinates if each.name not in values), *added)
+    elimination = _Elimination.of(scene, symbols.within(scene.material), values, waves or {}, left)
     return replace(
         scene,
         coordinates=left,
@@ -50,24 +69,28 @@ def _changed(value: object, change: Callable[[Expression], Expression]) -> objec
 
 @dataclass(frozen=True)
 class _Elimination:
-    coordinate: str
+    gone: frozenset[str]
     symbols: Symbols
     writer: Writer
-    value: Expr
-    rate: Expr
+    put: Turned
 
     @classmethod
-    def of(cls, scene: Scene, coordinate: str, value: Expression) -> _Elimination:
-        left = tuple(each for each in scene.coordinates if each.name != coordinate)
-        symbols = Symbols.of(scene).within(scene.material)
-        names = names_of(left, scene.parameters, scene.material)
-        found = to_symengine(value.tree, symbols)
-        return cls(coordinate, symbols, Writer(symbols, names), found, SymEngineAlgebra(symbols).time_derivative(found))
+    def of(
+        cls,
+        scene: Scene,
+        symbols: Symbols,
+        values: Mapping[str, Expr],
+        waves: Mapping[str, Waves],
+        left: tuple[Coordinate, ...],
+    ) -> _Elimination:
+        algebra, names = SymEngineAlgebra(symbols), names_of(left, scene.parameters, scene.material)
+        places = {symbols.values[name]: value for name, value in values.items()}
+        rates = {symbols.rates[name]: algebra.time_derivative(value) for name, value in values.items()}
+        turned = Turned(places | rates, {symbols.values[name]: pair for name, pair in waves.items()})
+        return cls(frozenset(values), symbols, Writer(symbols, names), turned)
 
     def into(self, expression: Expression) -> Expression:
-        """The expression without the coordinate."""
-        if self.coordinate not in expression.names:
+        """The expression without the coordinates that are gone."""
+        if not self.gone & (expression.names | expression.rates):
             return expression
-        symbols = self.symbols
-        put = {symbols.values[self.coordinate]: self.value, symbols.rates[self.coordinate]: self.rate}
-        return self.writer.expression(to_symengine(expression.tree, symbols).subs(put))
+        return self.writer.expression(self.put.into(to_symengine(expression.tree, self.symbols)))

@@ -1,6 +1,7 @@
 /** The rungs of the ladder as a table, each to be opened as a scene, the least one that will do, and those that only seem to. */
 
 import { html, nothing } from "lit-html";
+import { inLanguage } from "../../model/catalog.js";
 import { significant } from "../../model/numbers.js";
 import { resultOf } from "../../model/labs/results.js";
 import { titleOf } from "../../model/labs/ladder.js";
@@ -33,6 +34,40 @@ export function rungs(view) {
       <caption>${t("labs.fidelity.table")}</caption>
       <thead><tr><th scope="col">${t("labs.fidelity.rung")}</th>${["degrees", "operations", "time", "error"].map((key) => html`<th scope="col">${t(`labs.fidelity.${key}`)}</th>`)}<td></td></tr></thead>
       <tbody>${result.rungs.map((rung) => line(view, result, rung))}</tbody>
+    </table>
+    ${result.rungs.flatMap(({ refused }) => refused).map((reason) => html`<p class="purpose">${t("ladder.refused", { reason: why(view, result, reason) })}</p>`)}
+    ${multipliers(view, result)}`;
+}
+
+/** Why there is no such rung. @param {import("./page.js").View} view @param {Fidelity} result @param {Rung["refused"][number]} reason */
+function why({ t, state }, result, { code, parameters }) {
+  const { lang } = state.place;
+  const called = (/** @type {unknown} */ names) =>
+    String(names)
+      .split(", ")
+      .map((name) => inLanguage(result.names[name] ?? name, lang))
+      .join(", ");
+  return t(
+    `errors.${code}`,
+    Object.fromEntries(Object.entries(parameters).map(([key, value]) => [key, called(value)])),
+  );
+}
+
+/** How much alike both formulations move, and what a step costs in each. @param {import("./page.js").View} view @param {Fidelity} result */
+function multipliers({ t, state, methodTitle }, result) {
+  const found = result.multipliers;
+  if (!found) return nothing;
+  const { lang } = state.place;
+  const most = (/** @type {readonly number[][]} */ columns) => significant(Math.max(...columns.flat()), 2, lang);
+  const [apart, estimate, gap] = [found.apart, found.estimate, found.gap].map((column) => most([column]));
+  const [error, bound] = [found.errors, found.estimates].map((columns) => most(Object.values(columns)));
+  const micro = (/** @type {number} */ seconds) => `${significant(1e6 * seconds, 3, lang)} µs`;
+  return html`
+    <p class="verdict">${t("labs.fidelity.multipliers.verdict", { apart, estimate, gap, error, bound })}</p>
+    <table class="numbers failures">
+      <caption>${t("labs.fidelity.multipliers.table")}</caption>
+      <thead><tr>${["method", "with", "without", "ratio"].map((key) => html`<th scope="col">${t(`labs.fidelity.multipliers.${key}`)}</th>`)}</tr></thead>
+      <tbody>${found.steps.map(({ method, kept, minimal }) => html`<tr><th scope="row">${methodTitle(method)}</th><td>${micro(kept)}</td><td>${micro(minimal)}</td><td>${significant(kept / minimal, 2, lang)}</td></tr>`)}</tbody>
     </table>`;
 }
 

@@ -15,8 +15,7 @@ from deltaq.mechanics.library import load_scene, scene_ids
 from deltaq.model.modes import modes_of
 from deltaq.simulation.service import run
 
-# Experiments with the ladder refuse scenes with constraints, which do not let coordinates be moved at will, and those
-# whose motion goes on behind events.
+# Scenes with constraints have a ladder of their own (`test_minimal.py`); those whose motion goes on behind events none.
 CLIMBED = [name for name in scene_ids() if not load_scene(name).constraints and modes_of(load_scene(name)) is None]
 SPAN = 2.0
 

@@ -78,6 +78,26 @@ class RungGrowth(Answer):
     slope: float | None
 
 
+class StepTimes(Answer):
+    """Seconds that one step of a method takes."""
+
+    method: str
+    kept: float = Field(description="with multipliers")
+    minimal: float = Field(description="in minimal coordinates")
+
+
+class MultiplierComparison(Answer):
+    """A motion with multipliers held against the same in minimal coordinates, whose q̈ tells λ by M q̈ − f = Aᵀλ."""
+
+    t: tuple[float, ...] = Field(description="seconds")
+    apart: tuple[float, ...] = Field(description="largest difference of a coordinate")
+    estimate: tuple[float, ...] = Field(description="of it, by the error estimates of both")
+    gap: tuple[float, ...] = Field(description="largest |g|: how far the constraints are missed")
+    errors: dict[str, tuple[float, ...]] = Field(description="of each multiplier, as a part of its largest value")
+    estimates: dict[str, tuple[float, ...]] = Field(description="of these, by the error estimate")
+    steps: tuple[StepTimes, ...] = Field(description="what a step costs, by method")
+
+
 class FidelityAnswer(ExperimentAnswer):
     """The models there are, each with its cost and its error, and the least that will do."""
 
@@ -90,6 +110,10 @@ class FidelityAnswer(ExperimentAnswer):
     measured: tuple[MeasuredRung, ...]
     growth: tuple[RungGrowth, ...]
     points: tuple[MethodRun, ...] = Field(description="the full model by several methods, roughly and finely")
+    minimal: tuple[MethodRun, ...] = Field(
+        (), description="likewise in minimal coordinates, for scenes with constraints"
+    )
+    multipliers: MultiplierComparison | None = Field(None, description="what multipliers cost, where there are any")
     least: str = Field(description="id of the least rung that will do; empty where that cannot be told")
     until: float = Field(description="up to when that is said, in seconds")
     ending: Ending

@@ -17,7 +17,8 @@ def charts(result: Result, say: Say) -> list[Chart]:
     found = (
         [_cost(result, titles, say)] if result["points"] or any("error" in one for one in result["measured"]) else []
     )
-    return [*found, _amplitude(result, titles, say)] if result["growth"] else found
+    found += [_amplitude(result, titles, say)] if result["growth"] else []
+    return found + ([_alike(result, say), _multipliers(result, say)] if result["multipliers"] else [])
 
 
 def title_of(rung: Mapping[str, Any], result: Result, say: Say) -> str:
@@ -104,3 +105,50 @@ def _growth(one: Mapping[str, Any], amplitudes: list[float], titles: Mapping[str
         "line": {"color": color, "width": 1.6},
         "marker": {"color": color, "symbol": SYMBOLS[place % len(SYMBOLS)], "size": 8},
     }
+
+
+def _alike(result: Result, say: Say) -> Chart:
+    """Both formulations over time: how far apart they are and by the estimate, how far constraints are missed, λ."""
+    found = result["multipliers"]
+    curves = [("apart", found["apart"], "solid"), ("estimate", found["estimate"], "dash"), ("gap", found["gap"], "dot")]
+    traces = [_over(found["t"], y, say(f"labs.fidelity.multipliers.{key}"), 0, dash) for key, y, dash in curves]
+    for number, name in enumerate(found["errors"], 1):
+        told = {"name": called(result, name)}
+        error, estimate = (say(f"labs.fidelity.multipliers.{key}", **told) for key in ("error", "error-estimate"))
+        traces.append(_over(found["t"], found["errors"][name], error, number, "solid"))
+        traces.append(_over(found["t"], found["estimates"][name], estimate, number, "dash"))
+    y_axis = axis(say("labs.fidelity.multipliers.difference"), log=True, dtick=2)
+    caption = say("labs.fidelity.multipliers.alike-caption")
+    return chart(
+        "fidelity-alike",
+        say("labs.fidelity.multipliers.alike"),
+        caption,
+        traces,
+        xaxis=axis(say("labs.axis.t")),
+        yaxis=y_axis,
+    )
+
+
+def _over(t: list[float], y: list[float], name: str, place: int, dash: str) -> Trace:
+    color = PALETTE[place % len(PALETTE)]
+    line = {"color": color, "dash": dash, "width": 1.6}
+    return {"type": "scatter", "mode": "lines", "name": name, "x": t, "y": [v or None for v in y], "line": line}
+
+
+def _multipliers(result: Result, say: Say) -> Chart:
+    """Speed against accuracy with multipliers and without."""
+    traces = [_run(*group, "kept", say) for group in grouped(result["points"]).items()]
+    traces += [_run(*group, "minimal", say) for group in grouped(result["minimal"]).items()]
+    x_axis = axis(say("labs.axis.seconds"), log=True)
+    y_axis = axis(say("labs.fidelity.error"), log=True, range=RANGE, dtick=2)
+    caption = say("labs.fidelity.multipliers.cost-caption", repeats=result["repeats"], t_end=result["t_end"])
+    title = say("labs.fidelity.multipliers.cost")
+    return chart("fidelity-multipliers", title, caption, traces, xaxis=x_axis, yaxis=y_axis)
+
+
+def _run(method: str, points: list[Mapping[str, Any]], formulation: str, say: Say) -> Trace:
+    good = [point for point in points if point["error"] is not None and point["time"] > 0]
+    name = say(f"labs.fidelity.multipliers.{formulation}", name=name_of(method, say))
+    errors = [max(point["error"], 10 ** RANGE[0]) for point in good]
+    style = curve(name, [point["time"] for point in good], errors, method)
+    return style | {"line": style["line"] | {"dash": "solid" if formulation == "kept" else "dot"}}

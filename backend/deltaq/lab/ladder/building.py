@@ -34,7 +34,8 @@ def chains(context: SimplificationContext) -> tuple[Chain, ...]:
 
 
 def _chains(context: SimplificationContext, allowed: tuple[str, ...], depth: int = 1) -> Iterator[Chain]:
-    for kind in (kinds()[name] for name in allowed):
+    bound = bool(context.scene.constraints)
+    for kind in (kinds()[name] for name in allowed if kinds()[name].of_constrained is bound):
         for part in islice(kind.offered(context), MOST_OF_KIND):
             yield (part,)
             if depth < LONGEST_CHAIN and kind.followers:
@@ -77,6 +78,6 @@ def rung_of(context: SimplificationContext, chain: Chain) -> Rung:
     name = "+".join(part.id for part in chain) or FULL
     try:
         document = write_scene(simplified(context, chain).scene)
-        return Rung(name, chain, len(read_scene(document).free), document)
+        return Rung(name, chain, read_scene(document).degrees_of_freedom, document)
     except InputError as error:
         return Rung(name, chain, 0, None, error.problems)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -21,9 +21,10 @@ from .distance import Yardstick
 from .ending import DIGITS, known
 from .findings import Deviation, Finding, Growth, Ladder, Least, Measured, Rung
 from .mean import Mean
-from .measurement import CERTAIN, RungRun, cost, deviation, full_run, run_beside, yardstick
+from .measurement import CERTAIN, RungRun, cost, deviation, full_run, run_beside, seen, yardstick
+from .minimal import minimal
 from .nudge import WAYS, allowed, nudged
-from .simplification import SimplificationContext
+from .simplification import Motion, SimplificationContext
 from .verdict import is_within, lasts, least
 
 AMPLITUDES = (0.1, 0.2, 0.5, 1.0)
@@ -48,15 +49,30 @@ def climb(
     """
     _check(span, amplitudes, tolerance, repeats)
     flag = np.zeros(1, dtype=np.int64) if cancelled is None else cancelled
-    full, ending = known(full_run(scene, span, flag, tolerance), tolerance)
-    centre = centre_of(scene, full)
-    context = SimplificationContext(scene, centre.values if centre else {}, Mean.of(scene, span))
+    run = full_run(scene, span, flag, tolerance)
+    full, ending = known(run, tolerance)
+    motion = seen(run).until(len(full.times))
+    centre = None if scene.constraints else centre_of(scene, full)
+    values = centre.values if centre else _rest(scene, motion, span, flag)
+    context = SimplificationContext(scene, values, Mean.of(scene, span), motion)
     found = [rung_of(context, chain) for chain in ((), *chains(context))]
     factors = tuple(sorted({1.0, *amplitudes})) if centre else (1.0,)
     sound = [rung for rung in found if rung.scene is not None]
     count = len(sound) + (len(sound) - 1) * (len(factors) > 1) + 1
-    yield Ladder(tuple(found), dict(centre.values) if centre else {}, span, factors, count)
+    yield Ladder(tuple(found), dict(values), span, factors, count)
     yield from _Climb(context, centre, full, ending, tolerance, factors, repeats, flag).findings(sound)
+
+
+def _rest(scene: Scene, motion: Motion, span: float, cancelled: Flag) -> Mapping[str, float]:
+    """The centre of a scene with constraints, in minimal coordinates; empty where there is none."""
+    if not scene.constraints:
+        return {}
+    try:
+        below = minimal(scene, motion).scene
+        found = centre_of(below, yardstick(full_run(below, span, cancelled)))
+    except InputError:
+        return {}
+    return found.values if found else {}
 
 
 def _check(span: float, amplitudes: Sequence[float], tolerance: float, repeats: int) -> None:

@@ -73,7 +73,21 @@ def directions(problem: Problem, times: Floats, states: Floats, units: Floats, i
         return Directions(np.zeros((n, 0)), np.zeros((n, 0)))
     slopes = _slopes(problem, times, states, units)
     lengths = np.eye(n)[:, is_length]
-    return Directions(_null_space(slopes[:, :n], slopes[:, n:]), lengths @ _null_space(slopes[:, :n] @ lengths))
+    held = _held(problem, times, states, units)
+    return Directions(
+        _null_space(slopes[:, :n], slopes[:, n:], held), lengths @ _null_space(slopes[:, :n] @ lengths, held @ lengths)
+    )
+
+
+def _held(problem: Problem, times: Floats, states: Floats, units: Floats) -> Floats:
+    """The rows of A, in units of the coordinates, which directions have to keep: shape (rows, n)."""
+    n, count = problem.degrees, len(problem.model.layout.multipliers)
+    chosen = np.linspace(0, len(times) - 1, POINTS).astype(int)
+    table = problem.model.motion.table(problem.inputs(times[chosen], states[chosen]))
+    first = n * (n + 1) // 2 + n + (n + 1 if problem.model.layout.is_powered else 0)
+    rows = table[:, first : first + count * n].reshape(-1, n) * units
+    sizes = np.linalg.norm(rows, axis=1, keepdims=True)
+    return np.asarray(np.divide(rows, sizes, out=np.zeros_like(rows), where=sizes > 0.0))
 
 
 def _null_space(*parts: Floats) -> Floats:

@@ -35,7 +35,7 @@ def determined_until(full: Yardstick) -> float:
 
 def _passages(full: Yardstick) -> Floats:
     """The times at which M is singular along the motion, between its samples too."""
-    if len(full.times) < 2 * AROUND:
+    if len(full.times) < 2 * AROUND or full.problem.is_constrained:  # there the run itself ends, and says why
         return np.zeros(0)
     low = _smallest(full, full.times, full.states)
     inner = (low[1:-1] <= low[:-2]) & (low[1:-1] <= low[2:]) & (low[1:-1] < SHALLOW * np.median(low))

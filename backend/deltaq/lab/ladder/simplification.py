@@ -12,23 +12,6 @@ from .mean import Mean
 
 
 @dataclass(frozen=True)
-class SimplificationContext:
-    """A scene with its initial values, and what is known of rest nearby.
-
-    `centre` holds the values of its coordinates at rest; in steady motion, of those that are not cyclic; it is empty
-    where there is neither. `mean` is how to average over time what guides bring in.
-    """
-
-    scene: Scene
-    centre: Mapping[str, float]
-    mean: Mean
-
-    def with_scene(self, scene: Scene) -> SimplificationContext:
-        """The same with another scene."""
-        return replace(self, scene=scene)
-
-
-@dataclass(frozen=True)
 class Motion:
     """A motion of a scene at `times`, shape (samples,): all coordinates, the guided ones among them.
 
@@ -38,6 +21,29 @@ class Motion:
     times: Floats
     values: Mapping[str, Floats]
     rates: Mapping[str, Floats]
+
+    def until(self, count: int) -> Motion:
+        """The first samples of it."""
+        parts = ({name: values[:count] for name, values in part.items()} for part in (self.values, self.rates))
+        return Motion(self.times[:count], *parts)
+
+
+@dataclass(frozen=True)
+class SimplificationContext:
+    """A scene with its initial values, and what is known of rest nearby.
+
+    `centre` holds the values of its coordinates at rest; in steady motion, of those that are not cyclic; it is empty
+    where there is neither. `mean` is how to average over time what guides bring in. `motion` is that of the full scene.
+    """
+
+    scene: Scene
+    centre: Mapping[str, float]
+    mean: Mean
+    motion: Motion
+
+    def with_scene(self, scene: Scene) -> SimplificationContext:
+        """The same with another scene."""
+        return replace(self, scene=scene)
 
 
 Back = Callable[[Motion], Motion]
@@ -60,10 +66,12 @@ class Simplified:
 class Kind:
     """A kind of simplification: where it can be `offered` for a scene, how it is done, and the kinds that may follow.
 
-    `simplify` raises InputError where the result is no scene.
+    `simplify` raises InputError where the result is no scene. Kinds `of_constrained` scenes are for these alone, where
+    coordinates cannot be moved at will, and the others for scenes without constraints.
     """
 
     id: str
     offered: Callable[[SimplificationContext], Iterator[Part]]
     simplify: Callable[[SimplificationContext, Part], Simplified]
     followers: tuple[str, ...] = ()
+    of_constrained: bool = False

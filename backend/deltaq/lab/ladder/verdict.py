@@ -27,7 +27,8 @@ def _complexity(rung: Rung, deviation: Deviation, tolerance: float) -> tuple[int
     Operations do not count: an expression is longer or shorter by where coordinates begin. Errors far below the
     tolerance are alike; among those the shorter chain comes first.
     """
-    is_nonlinear = rung.scene is None or not is_linear(read_scene(rung.scene))
+    scene = None if rung.scene is None else read_scene(rung.scene)
+    is_nonlinear = scene is None or bool(scene.constraints) or not is_linear(scene)
     return rung.degrees, is_nonlinear, not rung.parts, max(deviation.relative or 0.0, ALIKE * tolerance)
 
 
