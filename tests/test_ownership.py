@@ -198,8 +198,10 @@ def test_a_service_whose_kernels_others_may_write_has_a_folder_of_its_own(
 
 
 def test_every_kernel_is_kept_in_files_that_are_looked_at() -> None:
-    program = "from deltaq.simulation.kernels import linear as m; from numba.core.registry import CPUDispatcher as D; "
-    program += "print({type(v._cache._cache_file).__name__ for v in vars(m).values() if isinstance(v, D)})"
+    program = "from deltaq.simulation import kernels; from deltaq.packages import modules_of; "
+    program += "from numba.core.registry import CPUDispatcher as D; from numba.core.caching import NullCache as N; "
+    program += "kept = [v._cache for m in modules_of(kernels.__name__) for v in vars(m).values() if isinstance(v, D)]; "
+    program += "print({type(c._cache_file).__name__ for c in kept if not isinstance(c, N)})"
     found = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=True)
     assert found.stdout.strip() == "{'OwnFiles'}"
 

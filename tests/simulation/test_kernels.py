@@ -12,19 +12,21 @@ from types import ModuleType
 
 import numpy as np
 import pytest
+from tests.simulation.called import called
 from tests.simulation.scenes import oscillator
 
 import deltaq
 from deltaq.api.workers.kernels import are_compiled
 from deltaq.model.model import compile_model
 from deltaq.simulation.driver import simulate
-from deltaq.simulation.kernels import explicit_runge_kutta
+from deltaq.simulation.kernels import explicit_runge_kutta, motion
 from deltaq.simulation.kernels.compiler import OwnFiles, kernel, source_stamp
 from deltaq.simulation.kernels.explicit_runge_kutta import integrate
-from deltaq.simulation.kernels.motion import SMALLEST_PIVOT, factor, solve, solve_small
+from deltaq.simulation.kernels.motion import SMALLEST_PIVOT
 from deltaq.simulation.library import get_method
 from deltaq.simulation.service import problem_of
 
+factor, solve, solve_small = called(motion.factor), called(motion.solve), called(motion.solve_small)
 PACKAGE = Path(deltaq.__file__).parent
 
 

@@ -10,18 +10,24 @@ from contextlib import contextmanager, suppress
 from functools import cache, cached_property
 from pathlib import Path
 from pickle import UnpicklingError
-from typing import Any, TypeVar, cast
+from typing import Any, NoReturn, TypeVar, cast
 
 from numba import njit
 from numba.core.caching import FunctionCache, IndexDataCacheFile
 from numba.core.ccallback import CFunc
 from numba.core.codegen import JITCodeLibrary
 from numba.core.compiler import Compiler
+from numba.core.compiler_machinery import register_pass
+from numba.core.registry import CPUDispatcher
+from numba.core.typed_passes import NativeLowering
 
 from ...ownership import require_trusted
 
 LOGGER = logging.getLogger("deltaq.simulation")
 F = TypeVar("F", bound=Callable[..., object])
+# Sums may be fused with products, and are not reordered; kernels have no references to count.
+OPTIONS: dict[str, Any] = {"nogil": True, "error_model": "numpy", "_nrt": False, "fastmath": {"contract"}}
+NO_WRAPPERS: dict[str, Any] = {"no_cpython_wrapper": True, "no_cfunc_wrapper": True}
 
 
 def kernel(function: F) -> F:
@@ -31,12 +37,24 @@ def kernel(function: F) -> F:
     of the time, since each array passed on would cost two atomic operations. The cache is beside the source, or in
     the user's cache directory where that is not writable.
     """
-    return _compiled(function, forceinline=False)
+    compiled: Any = njit(cache=True, forceinline=False, **OPTIONS)(function)
+    _kept(compiled._cache, function)  # noqa: SLF001 - Numba offers no other way
+    return cast("F", compiled)
+
+
+def subroutine(function: F) -> F:
+    """A part of kernels that is always called: too large to be there more than once. Only kernels can call it."""
+    return _part(function, forceinline=False)
 
 
 def inline(function: F) -> F:
-    """A part of a kernel that is always inlined, since a call would pass seven words for each array."""
-    return _compiled(function, forceinline=True)
+    """A part of kernels that is always inlined, since a call would pass seven words for each array."""
+    return _part(function, forceinline=True)
+
+
+def _part(function: F, *, forceinline: bool) -> F:
+    options = OPTIONS | NO_WRAPPERS | {"nopython": True, "forceinline": forceinline}
+    return cast("F", PartDispatcher(function, {}, options, PartCompiler))
 
 
 class Callback:
@@ -48,9 +66,8 @@ class Callback:
     @cached_property
     def address(self) -> int:
         """Where the machine code is, as long as the process lives."""
-        options = {"nogil": True, "error_model": "numpy", "_nrt": False, "fastmath": {"contract"}}
         arguments, returned = self._signature.args, self._signature.return_type
-        compiled: Any = CFunc(self._function, (arguments, returned), {}, options)
+        compiled: Any = CFunc(self._function, (arguments, returned), {}, OPTIONS)
         files: Any = FunctionCache
         compiled._cache = _kept(files(self._function), self._function)  # noqa: SLF001
         compiled.compile()
@@ -67,14 +84,6 @@ def callback(signature: Any) -> Callable[[Callable[..., object]], Callback]:
     return wrapped
 
 
-def _compiled(function: F, *, forceinline: bool) -> F:
-    options: dict[str, Any] = {"cache": True, "nogil": True, "error_model": "numpy", "_nrt": False}
-    pipeline = PartCompiler if forceinline else Compiler
-    compiled: Any = njit(fastmath={"contract"}, forceinline=forceinline, pipeline_class=pipeline, **options)(function)
-    _kept(compiled._cache, function)  # noqa: SLF001 - Numba offers no other way
-    return cast("F", compiled)
-
-
 def _kept(cache: Any, function: Callable[..., object]) -> Any:
     """The cache of a function, with files that are renewed with all that it is made of.
 
@@ -88,9 +97,10 @@ def _kept(cache: Any, function: Callable[..., object]) -> Any:
 
 
 class PartLibrary(JITCodeLibrary):
-    """The code of a part: what it calls is inlined, and the rest is left to the kernel that the part is inlined into.
+    """The code of a part: an intermediate representation for the kernels that it is linked into, no machine code.
 
-    Numba would optimize a part with all its own parts, and each of them again in whatever it is a part of.
+    Numba would optimize a part with all its own parts and make machine code of them, and again in whatever it is a
+    part of.
     """
 
     def _optimize_final_module(self) -> None:
@@ -99,16 +109,58 @@ class PartLibrary(JITCodeLibrary):
         manager, passes = codegen._module_pass_manager(**cheap)  # noqa: SLF001 - as Numba's own library does first
         manager.run(self._final_module, passes)
 
+    def _finalize_final_module(self) -> None:
+        """What Numba does before it hands the module to the machine."""
+        self._finalize_dynamic_globals()  # type: ignore[no-untyped-call]
+        self._verify_declare_only_symbols()  # type: ignore[no-untyped-call]
+        self._finalized = True
+
+
+@register_pass(mutates_CFG=True, analysis_only=False)  # type: ignore[no-untyped-call]
+class PartLowering(NativeLowering):
+    """Numba's lowering of a function that is declared to its callers, though there is no machine code to be called."""
+
+    _name = "part_lowering"
+
+    def run_pass(self, state: Any) -> bool:
+        """Leaves in the state what `NativeLowering` does, with a mere name in the place of the entry point."""
+        state.flags.no_compile = True
+        super().run_pass(state)  # type: ignore[no-untyped-call]
+        if not state.flags.forceinline:
+            state.library.get_function(state.cr.fndesc.mangled_name).add_function_attribute("noinline")
+        name = object()
+        state.cr = state.cr._replace(cfunc=name)
+        state.targetctx.insert_user_function(name, state.cr.fndesc, [state.library])
+        return True
+
 
 class PartCompiler(Compiler):
-    """Numba's compiler, with a library as parts have it."""
+    """Numba's compiler, with a library and a lowering as parts have them."""
 
     def compile_extra(self, function: Callable[..., object]) -> Any:
         """Numba's result of compiling the function; raises what Numba raises."""
         codegen = self.state.targetctx.codegen()
         self.state.library = PartLibrary(codegen, function.__qualname__)  # type: ignore[no-untyped-call]
-        self.state.library.enable_object_caching()
         return super().compile_extra(function)  # type: ignore[no-untyped-call]
+
+    def define_pipelines(self) -> list[Any]:
+        """The usual passes but for the lowering."""
+        (passes,) = super().define_pipelines()  # type: ignore[no-untyped-call]
+        passes.passes = [(PartLowering if one is NativeLowering else one, told) for one, told in passes.passes]
+        passes.finalize()
+        return [passes]
+
+
+class PartDispatcher(CPUDispatcher):
+    """Compiles a part for each set of argument types that a kernel calls it with."""
+
+    def add_overload(self, compiled: Any) -> None:
+        """Known to the kernels alone."""
+        self.overloads[tuple(compiled.signature.args)] = compiled
+
+    def __call__(self, *_arguments: object) -> NoReturn:
+        """Raises TypeError: there is no machine code of its own."""
+        raise TypeError(f"{self.py_func.__name__} is a part of kernels, and cannot be called from Python")
 
 
 class OwnFiles(IndexDataCacheFile):

@@ -10,7 +10,7 @@ from __future__ import annotations
 import numpy as np
 from numba import types
 
-from .compiler import callback, inline, kernel
+from .compiler import callback, inline, subroutine
 from .motion import FINE, LOCKED, NOT_FINITE, SINGULAR, SMALLEST_PIVOT, Floats, factor, holds, solve
 from .pointer import call, doubles_at, prevent_vectorization
 from .ranked import factor_ranked, solve_ranked
@@ -134,7 +134,7 @@ def solve_accelerations(system: System) -> int:
     return FINE
 
 
-@kernel
+@subroutine
 def accelerate(system: System) -> int:
     """`solve_accelerations` as a call, for all that is not on the way of every right-hand side."""
     prevent_vectorization()
@@ -176,7 +176,7 @@ def as_free(system: System, out: Floats) -> None:
             out[place + 1 + i] = 0.0
 
 
-@kernel
+@subroutine
 def phase_as_free(system: System, out: Floats) -> None:
     """M, p and ṗ = ∂E/∂q + Q + Aᵀλ; `out` has shape (n (n + 1)/2 + 2n,)."""
     n, m, rows = system.head[DEGREES], system.head[COUNT], place_of_rows(system)

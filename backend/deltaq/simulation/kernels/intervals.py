@@ -40,7 +40,7 @@ from ...model.tape import (
     SINE,
     TANGENT,
 )
-from .compiler import inline, kernel
+from .compiler import inline, kernel, subroutine
 from .motion import Floats
 
 Indices = NDArray[np.int64]
@@ -256,7 +256,7 @@ def derivative_bound(
     return float(1.0 / np.sqrt(1.0 - most * most)) if most < 1.0 else np.inf  # ARCSINE, ARCCOSINE
 
 
-@kernel
+@subroutine
 def propagate_influence(tape: TapeArrays, ranges: Ranges) -> None:
     """Bounds of the influence of every operation on q̈, from the seeds backward (`propagate_bounds` comes first)."""
     influence, low, high = ranges.influence, ranges.low, ranges.high
@@ -329,7 +329,7 @@ def is_relevant(ranges: Ranges, i: int, threshold: float) -> bool:
     return bool(width > 0.0 and product(ranges.influence[i], width) > threshold)
 
 
-@kernel
+@subroutine
 def largest_swing(tape: TapeArrays, ranges: Ranges, threshold: float) -> tuple[float, bool]:
     """The largest swing of a relevant operation over the box, and whether a relevant choice is undecided in it."""
     propagate_bounds(tape, ranges)

@@ -12,7 +12,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from .compiler import inline, kernel, runtime_int
+from .compiler import inline, kernel, runtime_int, subroutine
 from .explicit_runge_kutta import integrate
 from .linear import decompose, substitute
 from .motion import CANCELLED, FINE, Floats, Motion
@@ -149,7 +149,7 @@ def columns(flow: Flow, state: Floats, matrix: Floats) -> int:
     return FINE
 
 
-@kernel
+@subroutine
 def follow(flow: Flow, state: Floats, moved: int, by: float) -> int:
     """Integrates over a period, from a state of shape (2n,) with one component moved; returns the outcome."""
     for d in range(state.size):

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from .compiler import inline, kernel
+from .compiler import inline, kernel, subroutine
 from .constraints import accelerate, power_of, respond, weigh
 from .motion import FINE, LOCKED, NEWTON_FAILED, NOT_FINITE, Floats
 from .pointer import call, prevent_vectorization
@@ -68,7 +68,7 @@ def correct(system: System, first: int, at: int, h: float) -> tuple[float, float
     return relative, absolute
 
 
-@kernel
+@subroutine
 def project(system: System, h: float) -> int:
     """Moves q in `inputs` onto g = 0 and q̇ onto w = 0, in the metric of M; returns the outcome.
 
@@ -142,7 +142,7 @@ def place_between(system: System, x: float, t: float, h: float, ends: Ends) -> N
     system.inputs[2 * n] = t + x * h
 
 
-@kernel
+@subroutine
 def is_locked_between(system: System, t: float, h: float, ends: Ends) -> bool:
     """Whether the constraints lose their independence within a step, at whose ends they look turned round.
 
@@ -198,7 +198,7 @@ def begin_way(system: System, t: float, state: Floats) -> int:
     return outcome
 
 
-@kernel
+@subroutine
 def kick(system: System, t: float, h: float, ends: Ends) -> int:
     """The change of the momenta at the start of a step that puts its end on g = 0; KICKED, or FINE if it is there.
 
@@ -239,7 +239,7 @@ def kick(system: System, t: float, h: float, ends: Ends) -> int:
     return KICKED
 
 
-@kernel
+@subroutine
 def finish_step(system: System, t: float, h: float, ends: Ends) -> int:
     """The new state of a step projected, and its derivative; returns the outcome.
 

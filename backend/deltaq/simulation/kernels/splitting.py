@@ -10,7 +10,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from .compiler import inline, kernel, runtime_int
+from .compiler import inline, kernel, runtime_int, subroutine
 from .hermite import Ends, make_ends, sample_between, watch_between
 from .loop import Result, advance_time, begin, interruption
 from .motion import FINE, NOT_FINITE, TOO_LARGE, Floats, Motion, factor, rhs, solve
@@ -116,7 +116,7 @@ def check(n: int, workspace: SplitWorkspace) -> int:
     return FINE
 
 
-@kernel
+@subroutine
 def work(motion: Motion, t: float, h: float, workspace: SplitWorkspace) -> int:
     """∫P dt over the step, by the trapezoidal rule."""
     ends, n = workspace.ends, motion.degrees

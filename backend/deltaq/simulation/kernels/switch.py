@@ -13,7 +13,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from .compiler import inline, kernel
+from .compiler import inline, subroutine
 from .motion import FINE, HELD, Floats, Motion, rhs
 from .pointer import call
 
@@ -58,7 +58,7 @@ def make_switch(addresses: tuple[int, int], count: int, inputs: Floats, width: i
     return Switch(*addresses, count, inputs, before, after, values, gradient, middle, state, rates, here, which, when)
 
 
-@kernel
+@subroutine
 def switching_values(switch: Switch, degrees: int, t: float, state: Floats, out: Floats) -> None:
     """The switching functions of a state, shape (≥ 2n,), into `out`, shape (functions,)."""
     for d in range(2 * degrees):
@@ -67,7 +67,7 @@ def switching_values(switch: Switch, degrees: int, t: float, state: Floats, out:
     call(switch.address, switch.data, out, switch.inputs)
 
 
-@kernel
+@subroutine
 def switching_gradient(switch: Switch, degrees: int, t: float, k: int) -> tuple[float, float]:
     """∂s/∂(q, q̇) of function k at the middle state into `gradient`, by differences; returns its square and ∂s/∂t."""
     square = 0.0
@@ -89,7 +89,7 @@ def switching_gradient(switch: Switch, degrees: int, t: float, k: int) -> tuple[
     return square, (ahead - switch.values[k]) / (2.0 * nudge)
 
 
-@kernel
+@subroutine
 def switching_rate(motion: Motion, switch: Switch, t: float, off: float, square: float, by_time: float) -> float:
     """ṡ a distance `off` beside s = 0, at the middle state; NaN where it has none."""
     n, total = motion.degrees, by_time
@@ -102,7 +102,7 @@ def switching_rate(motion: Motion, switch: Switch, t: float, off: float, square:
     return total
 
 
-@kernel
+@subroutine
 def is_held(motion: Motion, switch: Switch, t: float, k: int, size: float) -> bool:
     """Whether function k holds the motion at the middle state, which is near its zero; `size` is that of s nearby."""
     n = motion.degrees
@@ -122,7 +122,7 @@ def is_held(motion: Motion, switch: Switch, t: float, k: int, size: float) -> bo
     return bool(closer < 0.5 * above and other > 0.5 * below)  # a jump stays, a slope shrinks
 
 
-@kernel
+@subroutine
 def find_hold_ahead(motion: Motion, switch: Switch, t: float, reach: float, state: Floats, rates: Floats) -> int:
     """`detect_hold_ahead` where there are switching functions; a call, not a part of every stepping loop.
 
@@ -172,7 +172,7 @@ def is_near(switch: Switch) -> bool:
     return False
 
 
-@kernel
+@subroutine
 def find_hold_within(
     motion: Motion, switch: Switch, t: float, h: float, is_fixed: int, old: Floats, new: Floats
 ) -> int:

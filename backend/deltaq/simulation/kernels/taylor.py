@@ -12,7 +12,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from .compiler import inline, kernel, runtime_int
+from .compiler import inline, kernel, runtime_int, subroutine
 from .loop import Result, advance_time, begin, interruption
 from .motion import (
     FINE,
@@ -100,7 +100,7 @@ class Choice(NamedTuple):
     is_cut: bool
 
 
-@kernel
+@subroutine
 def expand(series: Series, row: int, t: float, state: Floats, motion: Motion, near: float) -> int:
     """The coefficients at a state of shape (width,), in a power of two not far from `near` as the unit of time.
 
@@ -194,7 +194,7 @@ def defect_of(series: Series, row: int, h: float, degrees: int) -> float:
     return largest
 
 
-@kernel
+@subroutine
 def first_change(series: Series, row: int, t: float, h: float) -> float:
     """Where in a step of size h the first argument of a condition changes its sign, and a little further; else h."""
     found = h
