@@ -3,6 +3,7 @@
 import { render } from "lit-html";
 import { translator } from "./model/catalog.js";
 import { createBench } from "./model/labs/bench.js";
+import { motionAt } from "./model/labs/bifurcation.js";
 import { experimentsOf } from "./model/labs/experiments.js";
 import { withMarks } from "./model/labs/figure.js";
 import {
@@ -14,6 +15,7 @@ import {
   requestOf,
   writeQuestion,
 } from "./model/labs/question.js";
+import { resultOf } from "./model/labs/results.js";
 import { experiment, file } from "./model/labs/stream.js";
 import { createWatch, motionOf, written } from "./model/labs/watch.js";
 import { asTyped, completed, documentIn, fragmentOf, OWN, readDraft } from "./model/own.js";
@@ -84,16 +86,26 @@ const watching = createWatch(api);
 
 /** @param {Chart} chart @param {number} x @param {number} y @param {number} [curve]  the number of what was pressed */
 function pressed(chart, x, y, curve = 0) {
-  const orbit = chart.data[curve]?.meta?.initial;
+  const meaning = chart.data[curve]?.meta;
+  const orbit = meaning?.initial;
   if (orbit) return watch({ initial: orbit }, sceneFrom(orbit));
+  const settled = resultOf(bench.get().result, "bifurcation");
+  const found = settled && meaning ? motionAt(settled, meaning, x, y) : null;
+  if (!found) return onMap(chart, x, y);
+  const parameters = { ...bench.get().question.parameters, ...found.parameters };
+  watch({ parameters, initial: found.initial }, sceneFrom(found.initial, found.parameters));
+}
+
+/** @param {Chart} chart @param {number} x @param {number} y */
+function onMap(chart, x, y) {
   const map = chart.data.find((trace) => trace.meta?.role === "map" || trace.meta?.role === "flips")?.meta;
   if (map) watch(pointOf(bench.get().question, map, x, y));
 }
 
-/** Where an orbit is shown as a motion of its scene. @param {import("./model/values.js").Changes["initial"]} initial */
-function sceneFrom(initial) {
+/** Where an orbit is shown as a motion of its scene. @param {import("./model/values.js").Changes["initial"]} initial @param {Record<string, number>} [changed]  parameters that are others there */
+function sceneFrom(initial, changed = {}) {
   const { scene, parameters } = bench.get().question;
-  const set = writeChanges({ parameters, initial }, 12);
+  const set = writeChanges({ parameters: { ...parameters, ...changed }, initial }, 12);
   const { lang, theme } = get().place;
   const place = writePlace({ ...HOME, lang, theme, set, ...(scene === OWN ? {} : { scene }) });
   return `/scene${place}${scene === OWN ? ownFragment : ""}`;

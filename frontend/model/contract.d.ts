@@ -104,6 +104,26 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/v1/experiments/bifurcation": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Which motions a scene settles to while a parameter grows, and where they change
+         * @description Which motions a scene settles to while a parameter grows, and where they change.
+         */
+        post: operations["bifurcation"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/v1/experiments/chaos": {
         parameters: {
             query?: never;
@@ -1263,6 +1283,240 @@ export interface components {
              * @default 0
              */
             late: number;
+        };
+        /**
+         * BifurcationAnswer
+         * @description What is seen over a parameter, swept up and down, with branches of periodic motions.
+         */
+        BifurcationAnswer: {
+            /**
+             * Experiment
+             * @example work-precision
+             */
+            experiment: string;
+            /** Scene */
+            scene: string;
+            /**
+             * Title
+             * @description of the scene, by language
+             */
+            title: {
+                [key: string]: string;
+            };
+            /**
+             * Names
+             * @description how what the scene names is written; words by language
+             */
+            names: {
+                [key: string]: string | {
+                    [key: string]: string;
+                };
+            };
+            /**
+             * T End
+             * @description seconds of motion
+             */
+            t_end: number;
+            /**
+             * Parameters
+             * @description their values
+             */
+            parameters: {
+                [key: string]: number;
+            };
+            /**
+             * Initial
+             * @description where the motion began, by free coordinate
+             */
+            initial: {
+                [key: string]: components["schemas"]["Begin"];
+            };
+            /** Charts */
+            charts: components["schemas"]["Chart"][];
+            /** @description where the answer has times */
+            taken?: components["schemas"]["Measured"] | null;
+            /**
+             * Parameter
+             * @description what is swept
+             * @example gamma
+             */
+            parameter: string;
+            /**
+             * Driven
+             * @description whether it is looked at once in each period of a drive
+             */
+            driven: boolean;
+            /**
+             * Period
+             * @description that of the drive at the first value, in seconds; null without a drive
+             */
+            period: number | null;
+            /**
+             * Plane
+             * @description the expression that is zero where it is looked at; empty: by the period alone
+             */
+            plane: string;
+            /**
+             * Direction
+             * @enum {string}
+             */
+            direction: "rising" | "falling" | "both";
+            /**
+             * Vertical
+             * @description the expression that is seen
+             * @example phi
+             */
+            vertical: string;
+            /**
+             * Up
+             * @description with growing values, each begun where the one before ended
+             */
+            up: components["schemas"]["Visit"][];
+            /**
+             * Down
+             * @description the same with falling values
+             */
+            down: components["schemas"]["Visit"][];
+            /**
+             * Hysteresis
+             * @description where both sweeps see different motions
+             */
+            hysteresis: components["schemas"]["Span"][];
+            /** Branches */
+            branches: components["schemas"]["OrbitBranch"][];
+            /** Bifurcations */
+            bifurcations: components["schemas"]["FoundBifurcation"][];
+            /**
+             * Feigenbaum
+             * @description of doublings in a row: quotients of neighbouring distances
+             */
+            feigenbaum: number[];
+            /**
+             * Complete
+             * @description whether all branches that were found have been followed
+             */
+            complete: boolean;
+            /**
+             * Points
+             * @description of both sweeps
+             */
+            points: number;
+            /**
+             * Extent
+             * @description the height of the picture
+             */
+            extent: number;
+        };
+        /**
+         * BifurcationRequest
+         * @description Which motions a scene settles to while a parameter grows, and where they change.
+         * @example {
+         *       "crossings": 8,
+         *       "folds": 2,
+         *       "scene": "driven-pendulum",
+         *       "skip": 20,
+         *       "sweep": {
+         *         "count": 8,
+         *         "from": 1.06,
+         *         "parameter": "gamma",
+         *         "to": 1.08
+         *       }
+         *     }
+         */
+        BifurcationRequest: {
+            /**
+             * @description a built-in scene by its id, or a scene document of format 1
+             * @example elastic-pendulum
+             */
+            scene: components["schemas"]["Scene"];
+            /**
+             * Guides
+             * @description coordinates to be made functions of time
+             */
+            guides?: components["schemas"]["GuideChange"][];
+            /**
+             * Freeze
+             * @description coordinates to be held constant
+             * @example []
+             */
+            freeze?: string[];
+            /**
+             * Parameters
+             * @description values of parameters
+             * @example {
+             *       "l": 0.8
+             *     }
+             */
+            parameters?: components["schemas"]["BifurcationRequestParameters"];
+            /**
+             * Initial
+             * @description where the motion begins, by coordinate
+             * @example {
+             *       "phi": {
+             *         "value": 0.5
+             *       }
+             *     }
+             */
+            initial?: components["schemas"]["BifurcationRequestInitial"];
+            /**
+             * T End
+             * @description seconds at each value, at most
+             */
+            t_end?: number;
+            /**
+             * Lang
+             * @description language of the texts; else Accept-Language decides
+             */
+            lang?: ("de" | "en") | null;
+            /**
+             * Fresh
+             * @description whether to measure anew what was measured before, as Cache-Control: no-cache does
+             */
+            fresh?: boolean;
+            /** @description the parameter, from where to where, and how many values */
+            sweep: components["schemas"]["MapAxis"];
+            /**
+             * Period
+             * @description of the drive, an expression of parameters in seconds; empty: that of the scene
+             * @example
+             */
+            period?: string;
+            /**
+             * Plane
+             * @description an expression of coordinates, rates (dot(q)) and t that is zero where it is looked at; dot(q) gives extrema; empty: once in each period of the drive, or at maxima of the first coordinate
+             * @example
+             */
+            plane?: string;
+            /**
+             * Direction
+             * @description which way the plane is passed; falling rates are maxima
+             */
+            direction?: components["schemas"]["BifurcationRequestDirection"];
+            /**
+             * Vertical
+             * @description an expression that is seen; empty: the first coordinate
+             */
+            vertical?: string;
+            /**
+             * Crossings
+             * @description periods, or passages, that are shown at each value
+             */
+            crossings?: number;
+            /**
+             * Skip
+             * @description periods, or passages, before them: until it has settled
+             */
+            skip?: number;
+            /**
+             * Orbits
+             * @description whether periodic motions are followed, with their bifurcations
+             */
+            orbits?: boolean;
+            /**
+             * Folds
+             * @description periods after which a motion closes, at most
+             */
+            folds?: number;
         };
         /**
          * BoundaryTerm
@@ -3734,6 +3988,57 @@ export interface components {
             spoken: string;
         };
         /**
+         * FoundBifurcation
+         * @description Where a branch changes its character.
+         */
+        FoundBifurcation: {
+            /**
+             * Kind
+             * @description μ = −1, μ = 1 where the branch turns back, μ = 1 at a crossing, |μ| = 1 complex
+             * @enum {string}
+             */
+            kind: "period-doubling" | "saddle-node" | "branching" | "torus";
+            /**
+             * Value
+             * @description of the parameter
+             */
+            value: number;
+            /**
+             * Error
+             * @description of that value, estimated by a second search with other differences
+             */
+            error: number;
+            /**
+             * Folds
+             * @description of the branch that it is on
+             */
+            folds: number;
+            /**
+             * Branch
+             * @description the number of that branch, from 0
+             */
+            branch: number;
+            /**
+             * Period
+             * @description seconds until the motion there closes
+             */
+            period: number;
+            /**
+             * Multipliers
+             * @description μ, real and imaginary part; the largest first
+             */
+            multipliers: [
+                number,
+                number
+            ][];
+            /** Seen */
+            seen: number[];
+            /** Initial */
+            initial: {
+                [key: string]: components["schemas"]["Begin"];
+            };
+        };
+        /**
          * FrequentMistake
          * @description How often something went wrong in one task.
          */
@@ -4953,6 +5258,19 @@ export interface components {
             error: number[];
         };
         /**
+         * OrbitBranch
+         * @description Periodic motions that follow one another.
+         */
+        OrbitBranch: {
+            /**
+             * Folds
+             * @description periods or passages until a motion closes
+             */
+            folds: number;
+            /** Motions */
+            motions: components["schemas"]["PeriodicMotion"][];
+        };
+        /**
          * OrderOfConvergence
          * @description p of error ∝ step^p.
          */
@@ -5005,6 +5323,38 @@ export interface components {
             kind: "momentum";
             /** Coordinate */
             coordinate: string;
+        };
+        /**
+         * PeriodicMotion
+         * @description A periodic motion on a branch, stable or not.
+         */
+        PeriodicMotion: {
+            /**
+             * Value
+             * @description of the parameter
+             */
+            value: number;
+            /**
+             * Stable
+             * @description whether no |μ| exceeds 1
+             */
+            stable: boolean;
+            /**
+             * Growth
+             * @description the largest |μ|
+             */
+            growth: number;
+            /**
+             * Period
+             * @description seconds until it closes
+             */
+            period: number;
+            /** Seen */
+            seen: number[];
+            /** Initial */
+            initial: {
+                [key: string]: components["schemas"]["Begin"];
+            };
         };
         /**
          * PoincareSectionAnswer
@@ -6988,6 +7338,16 @@ export interface components {
             lang?: ("de" | "en") | null;
         };
         /**
+         * Span
+         * @description A stretch of the parameter's values.
+         */
+        Span: {
+            /** Start */
+            start: number;
+            /** End */
+            end: number;
+        };
+        /**
          * StabilityAnswer
          * @description The scene's eigenvalues, the step at which each method fails, and what a stiffness costs.
          */
@@ -8032,7 +8392,7 @@ export interface components {
         TraceMeaning: {
             /**
              * Role
-             * @description eigenvalues, map, flips, orbit, or without-result
+             * @description eigenvalues, map, flips, orbit, sweep, branch, or without-result
              * @example eigenvalues
              */
             role: string;
@@ -8053,6 +8413,11 @@ export interface components {
             initial?: {
                 [key: string]: components["schemas"]["Begin"];
             } | null;
+            /**
+             * Part
+             * @description of a sweep: up or down; of a branch: its number
+             */
+            part?: string | null;
         };
         /**
          * TransitionAnswer
@@ -8697,6 +9062,40 @@ export interface components {
             source: string;
         };
         /**
+         * Visit
+         * @description One value of the parameter, and what is seen there after the motion has settled.
+         */
+        Visit: {
+            /**
+             * Value
+             * @description of the parameter
+             */
+            value: number;
+            /**
+             * Status
+             * @description ok, or how the motion ended before its time
+             * @enum {string}
+             */
+            status: "ok" | "event" | "stopped" | "cancelled" | "step_limit" | "singular_mass_matrix" | "diverged" | "newton_failed" | "stiff" | "unresolved" | "step_blind" | "horizon_reached" | "tolerance_missed" | "guide_jumps" | "singular_constraints";
+            /**
+             * Folds
+             * @description after so many periods or passages it repeats; 0: after none of those looked at
+             */
+            folds: number;
+            /**
+             * Seen
+             * @description values of the vertical expression, in their order; of one round if it repeats
+             */
+            seen: number[];
+            /**
+             * Initial
+             * @description where the motion shown begins; null where it ended before
+             */
+            initial: {
+                [key: string]: components["schemas"]["Begin"];
+            } | null;
+        };
+        /**
          * WorkPrecisionAnswer
          * @description Errors over times and over right-hand sides, and which method is the cheapest for each error.
          */
@@ -8938,6 +9337,26 @@ export interface components {
          * @enum {string}
          */
         EnsembleRequestColumns: "numbers" | "base64";
+        /**
+         * BifurcationRequestParameters
+         * @default {}
+         */
+        BifurcationRequestParameters: {
+            [key: string]: number;
+        };
+        /**
+         * BifurcationRequestInitial
+         * @default {}
+         */
+        BifurcationRequestInitial: {
+            [key: string]: components["schemas"]["InitialValue"];
+        };
+        /**
+         * BifurcationRequestDirection
+         * @default falling
+         * @enum {string}
+         */
+        BifurcationRequestDirection: "rising" | "falling" | "both";
         /**
          * ChaosRequestParameters
          * @default {}
@@ -9365,6 +9784,36 @@ export interface operations {
                 };
                 content: {
                     "application/json": components["schemas"]["ExperimentList"];
+                };
+            };
+        };
+    };
+    bifurcation: {
+        parameters: {
+            query?: never;
+            header?: {
+                /** @description `no-cache` measures anew what was measured before */
+                "Cache-Control"?: string;
+            };
+            path?: never;
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["BifurcationRequest"];
+            };
+        };
+        responses: {
+            /** @description the answer */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["BifurcationAnswer"];
+                    "text/event-stream": string;
+                    "text/html": string;
+                    "text/csv": string;
                 };
             };
         };

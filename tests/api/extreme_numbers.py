@@ -38,6 +38,7 @@ EXPERIMENTS = (
     "fidelity",
     "stability-map",
     "poincare-section",
+    "bifurcation",
 )
 BUSY = {503, 504}
 QUICK = {"simulation_deadline": 2, "derivation_deadline": 2, "experiment_deadline": 2, "queue_patience": 60}
@@ -166,6 +167,11 @@ class Draw(random.Random):
             "fidelity": {"tolerance": self.often(0.01)},
             "poincare-section": {"energy": self.number(), "count": 2} if self.random() < 0.5 else {"count": 2},
             "uncertainty": {"tolerance": self.often(0.01), "runs": 30},
+            "bifurcation": {
+                "sweep": {"parameter": "omega", "from": self.number(), "to": self.number(), "count": 8},
+                "crossings": 4,
+                "skip": 4,
+            },
             "stability-map": {
                 axis: {"parameter": "omega", "from": self.number(), "to": self.number(), "count": 4} for axis in "xy"
             },

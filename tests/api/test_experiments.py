@@ -36,6 +36,13 @@ SMALL: dict[str, dict[str, Any]] = {key: {"scene": "pendulum", "t_end": 1.0} for
     "stability-map": {"scene": "kapitza", **AXES},
     "chaos": {"scene": "double-pendulum", "t_end": 3.0, "map": True, "count": 16},
     "fidelity": {"scene": "elastic-pendulum", "t_end": 2.0},
+    "bifurcation": {
+        "scene": "driven-pendulum",
+        "sweep": {"parameter": "gamma", "from": 1.06, "to": 1.07, "count": 8},
+        "crossings": 6,
+        "skip": 20,
+        "folds": 1,
+    },
     "poincare-section": {"scene": "coupled-pendulums", "t_end": 6.0, "count": 2, "crossings": 5},
     "uncertainty": {"scene": "coupled-pendulums", "t_end": 3.0, "runs": 40},
 }

@@ -19,6 +19,7 @@ LABS = (
     "chaos",
     "poincare-section",
     "uncertainty",
+    "bifurcation",
     "fidelity",
 )
 CLASS = """student,scene,task,answer,syntax,line

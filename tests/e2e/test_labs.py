@@ -146,3 +146,17 @@ def test_a_point_of_a_section_leads_to_its_orbit(lecture: Lecture) -> None:
     rows.first.click()
     expect(page).to_have_url(re.compile(r"/scene\?.*set="))
     page.locator("main .katex").first.wait_for()
+
+
+def test_a_bifurcation_opens_its_motion(lecture: Lecture) -> None:
+    """The table has the doubling of the driven pendulum; what it opens begins there, at that value of the parameter."""
+    small = "sweep=gamma:1.06:1.07&settle=20&shown=4&folds=1"
+    page = measured(opened(lecture, f"lab=bifurcation&scene=driven-pendulum&{small}")).page
+    row = page.locator(".failures tbody tr").first
+    expect(row).to_contain_text("Period doubling")
+    expect(row).to_contain_text("1.06637")
+    page.locator("figure[data-chart=bifurcation] .points path").first.click(force=True)
+    expect(page.locator(".motion h2 a")).to_have_attribute("href", re.compile("scene=driven-pendulum.*gamma:1.0"))
+    row.get_by_role("link").click()
+    expect(page).to_have_url(re.compile(r"/scene\?.*gamma:1\.06637"))
+    page.locator("main .katex").first.wait_for()

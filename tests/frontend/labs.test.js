@@ -1,4 +1,5 @@
 import { strict as assert } from "node:assert";
+import { motionAt } from "../../frontend/model/labs/bifurcation.js";
 import { readdirSync } from "node:fs";
 import { test } from "node:test";
 import { ApiError } from "../../frontend/model/api.js";
@@ -58,7 +59,7 @@ test("a problem in the stream, a refusal and a stream that breaks off are failur
   assert.equal((await failing(answering("event: part\ndata: {}\n\n"))).status, 0);
 });
 
-const ASKED = { ...NOTHING, lab: "stability-map", scene: "kapitza", duration: 5, peers: true, steps: 1000, plane: "phi", direction: "both", horizontal: "", vertical: "dot(phi)^2", energy: -1.5, grid: 4, crossings: 80, skip: 7, uncertain: "all", spread: 0.02, tolerances: "phi = 0.1; dot(phi) = 0,25, l = x", distribution: "uniform", runs: 50, share: 10, at: /** @type {const} */ ("rest"), stiffness: "k", x: { parameter: "omega", from: -10, to: 120.5 }, y: { parameter: "y0", from: 0.01, to: 0.2 }, flips: false, allowed: 0.5, parameters: { l: 0.4 }, initial: { phi: { value: -1.5, rate: 2 } } };
+const ASKED = { ...NOTHING, lab: "stability-map", scene: "kapitza", duration: 5, peers: true, steps: 1000, plane: "phi", direction: "both", horizontal: "", vertical: "dot(phi)^2", energy: -1.5, grid: 4, crossings: 80, skip: 7, uncertain: "all", spread: 0.02, tolerances: "phi = 0.1; dot(phi) = 0,25, l = x", distribution: "uniform", runs: 50, share: 10, at: /** @type {const} */ ("rest"), stiffness: "k", x: { parameter: "omega", from: -10, to: 120.5 }, y: { parameter: "y0", from: 0.01, to: 0.2 }, sweep: { parameter: "y0", from: 0.01, to: 0.2 }, period: "", passing: "both", settle: 7, shown: 48, folds: 8, orbits: true, flips: false, allowed: 0.5, parameters: { l: 0.4 }, initial: { phi: { value: -1.5, rate: 2 } } };
 
 test("every question has an address, and the usual one a short one", () => {
   assert.deepEqual(readQuestion(`?${writeQuestion(ASKED)}`), ASKED);
@@ -70,10 +71,11 @@ test("an address that makes no sense is read as the usual", () => {
 });
 
 test("each lab asks for what it knows", () => {
-  const bodies = Object.fromEntries(["work-precision", "convergence", "energy-drift", "stability", "stability-map", "chaos", "poincare-section", "uncertainty", "fidelity"].map((lab) => [lab, Object.keys(requestOf({ ...ASKED, lab }, "kapitza", "en")).filter((key) => !["scene", "parameters", "initial", "lang"].includes(key)).sort()]));
+  const bodies = Object.fromEntries(["work-precision", "convergence", "energy-drift", "stability", "stability-map", "chaos", "poincare-section", "bifurcation", "uncertainty", "fidelity"].map((lab) => [lab, Object.keys(requestOf({ ...ASKED, lab }, "kapitza", "en")).filter((key) => !["scene", "parameters", "initial", "lang"].includes(key)).sort()]));
   assert.deepEqual(bodies, {
     "work-precision": ["peers", "t_end"], convergence: ["t_end"], "energy-drift": ["steps"], stability: ["at", "stiffness", "t_end"],
     "stability-map": ["x", "y"], chaos: ["map", "t_end"], "poincare-section": ["count", "direction", "energy", "plane", "skip", "t_end", "vertical"],
+    bifurcation: ["direction", "plane", "skip", "sweep", "t_end", "vertical"],
     uncertainty: ["distribution", "runs", "share", "t_end", "tolerance", "tolerances", "uncertain"], fidelity: ["t_end", "tolerance"],
   });
   assert.equal(/** @type {any} */ (requestOf({ ...ASKED, lab: "fidelity" }, "kapitza", "en")).tolerance, 0.005);
@@ -84,6 +86,23 @@ test("each lab asks for what it knows", () => {
 test("a place on a map is two parameters, or two angles at rest", () => {
   assert.deepEqual(pointOf(ASKED, { role: "map", x: "omega", y: "y0" }, 30, 0.1), { parameters: { l: 0.4, omega: 30, y0: 0.1 }, initial: ASKED.initial });
   assert.deepEqual(pointOf(ASKED, { role: "flips", x: "a", y: "b" }, 1, 2), { parameters: { l: 0.4 }, initial: { phi: { value: -1.5, rate: 0 }, a: { value: 1, rate: 0 }, b: { value: 2, rate: 0 } } });
+});
+
+test("a place in a bifurcation diagram is the motion next to it, of the part that is pressed", () => {
+  const motion = (/** @type {number} */ value, /** @type {number[]} */ seen, initial = { phi: { value, rate: seen[0] } }) => ({ value, seen, initial });
+  const result = /** @type {any} */ ({
+    parameter: "gamma", up: [motion(1, [5]), motion(2, [6]), { value: 3, seen: [], initial: null }], down: [motion(2, [7])],
+    branches: [{ motions: [] }, { motions: [motion(1, [0]), motion(2, [1]), motion(2, [4, 9])] }],
+    bifurcations: [{ ...motion(1.5, [3]), kind: "torus" }, { ...motion(1.4, [3]), kind: "saddle-node" }],
+  });
+  const at = (/** @type {any} */ meaning, /** @type {number} */ x, y = 0) => motionAt(result, meaning, x, y)?.initial.phi;
+  assert.deepEqual(at({ role: "sweep", part: "up" }, 2.9), { value: 2, rate: 6 });
+  assert.deepEqual(at({ role: "sweep", part: "down" }, 1), { value: 2, rate: 7 });
+  assert.deepEqual(at({ role: "branch", part: "1" }, 2, 8.5), { value: 2, rate: 4 });
+  assert.deepEqual(at({ role: "bifurcation", part: "torus" }, 1.4), { value: 1.5, rate: 3 });
+  assert.equal(at({ role: "branch", part: "0" }, 2), undefined);
+  assert.equal(at({ role: "eigenvalues" }, 2), undefined);
+  assert.deepEqual(motionAt(result, { role: "sweep", part: "up" }, 1, 0)?.parameters, { gamma: 1 });
 });
 
 const PALETTE = { ink: "ink", muted: "muted", grid: "grid", paper: "paper" };
@@ -101,6 +120,8 @@ test("a chart takes the page's colours, and puts the legend below where it is na
   const wall = themed(CHART, PALETTE, 3000, 40, "de");
   assert.equal(wall.data[0].marker.size / wide.data[0].marker.size, 40 / 16);
   assert.equal(CHART.data[0].marker?.color, "#222222");
+  const lined = { ...CHART, data: [{ name: "a", line: { color: "#222222" } }] };
+  assert.equal(themed(lined, PALETTE, 900, 16, "en").data[0].line?.color, "ink");
   const ringed = { ...CHART, data: [{ name: "a", marker: { color: "#0072b2", line: { color: "#222222", width: 3 } } }] };
   assert.deepEqual(themed(/** @type {any} */ (ringed), PALETTE, 1000, 16, "de").data[0].marker, { color: "#0072b2", size: 6, line: { color: "ink", width: 3 } });
 });

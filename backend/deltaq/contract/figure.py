@@ -68,10 +68,13 @@ class ErrorBars(Answer):
 class TraceMeaning(Answer):
     """What a trace shows that its look does not tell."""
 
-    role: str = Field(description="eigenvalues, map, flips, orbit, or without-result", examples=["eigenvalues"])
+    role: str = Field(
+        description="eigenvalues, map, flips, orbit, sweep, branch, or without-result", examples=["eigenvalues"]
+    )
     x: str | None = Field(None, description="of a map: whose values stand on its axis")
     y: str | None = Field(None, description="likewise")
     initial: dict[str, Begin] | None = Field(None, description="of an orbit: where it begins, by coordinate")
+    part: str | None = Field(None, description="of a sweep: up or down; of a branch: its number")
 
 
 class Trace(Answer):

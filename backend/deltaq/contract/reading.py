@@ -53,6 +53,7 @@ CODES: Mapping[str, str] = MappingProxyType(
         "ensemble-too-large": "ensemble-too-large",
         "section-too-large": "section-too-large",
         "uncertainty-too-large": "uncertainty-too-large",
+        "bifurcation-too-large": "bifurcation-too-large",
         "request-outside": "request-outside",
         "request-not-text": "request-not-text",
         "request-not-number": "request-not-number",
@@ -70,6 +71,7 @@ FILLING = frozenset(
     {
         *(*SIDES, "min_length", "max_length", "expected", "value", "min", "max", "format"),
         *("runs", "seconds", "most_runs", "most_seconds", "samples", "points", "most_points"),
+        *("passages", "most_passages"),
     }
 )  # what sentences speak of
 _QUOTED = re.compile(r"'([^']*)'")

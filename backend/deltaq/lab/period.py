@@ -7,7 +7,7 @@ small numbers, as those of a Fourier series are.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import fields, is_dataclass
 from fractions import Fraction
 
@@ -27,7 +27,12 @@ def period(scene: Scene, parameters: Mapping[str, float] | None = None) -> float
     `no-period` where nothing depends on the time.
     """
     values = {parameter.name: parameter.value for parameter in scene.parameters} | dict(parameters or {})
-    found = sorted({frequency for clock in clocks(scene) if (frequency := _frequency(clock, values)) > 0.0})
+    return common_period(tuple(clocks(scene)), values)
+
+
+def common_period(arguments: Iterable[Node], values: Mapping[str, float]) -> float:
+    """The period of what has these arguments of sines and cosines. Raises SceneError as `period` does."""
+    found = sorted({frequency for clock in arguments if (frequency := _frequency(clock, values)) > 0.0})
     if not found:
         raise SceneError(Problem("no-period", "/guides"))
     ratios = [Fraction(frequency / found[0]).limit_denominator(LARGEST_DENOMINATOR) for frequency in found]

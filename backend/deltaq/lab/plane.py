@@ -106,13 +106,13 @@ def section_of(request: PoincareSectionRequest, problem: Problem, observables: O
     """
     scene, is_driven = observables.scene, observables.depends_on_time
     given = request.plane.strip()
-    plane = _parsed(given, scene, "/plane") if given else _usual_plane(scene, problem, path, is_driven=is_driven)
+    plane = parsed(given, scene, "/plane") if given else _usual_plane(scene, problem, path, is_driven=is_driven)
     function = observables.observable(plane)
     if function.is_constant:
         raise RequestError(Mistake("section-plane-constant", "/plane", parameters={"plane": plane.text[:80]}))
     first, second = _usual_axes(scene, problem, function)
     axes = [
-        _parsed(asked.strip() or usual, scene, f"/{name}")
+        parsed(asked.strip() or usual, scene, f"/{name}")
         for name, asked, usual in (("horizontal", request.horizontal, first), ("vertical", request.vertical, second))
     ]
     found = Section(problem, observables, is_driven, plane, request.direction, (axes[0], axes[1]))
@@ -131,7 +131,8 @@ def _require_energy(section: Section, path: Floats) -> None:
         raise RequestError(Mistake("section-dissipation", "/scene", parameters=told))
 
 
-def _parsed(text: str, scene: Scene, pointer: str) -> Expression:
+def parsed(text: str, scene: Scene, pointer: str) -> Expression:
+    """A function of coordinates, rates and the time. Raises InputError, at the pointer, for anything else."""
     with inside(pointer):
         found = parse(text, scene.names)
         if not found.is_scalar:

@@ -43,9 +43,13 @@ class Observable:
 
 @dataclass(frozen=True)
 class Observables:
-    """What can be asked of the states of a scene whose parameters have their values."""
+    """What can be asked of the states of a scene whose parameters have their values.
+
+    Those of `kept` have none: they are inputs, behind q, q̇ and t.
+    """
 
     scene: Scene
+    kept: tuple[str, ...] = ()
 
     @cached_property
     def _equations(self) -> Equations:
@@ -58,8 +62,12 @@ class Observables:
     @cached_property
     def _numbers(self) -> Mapping[Expr, Expr]:
         """The values of the parameters."""
-        values = self._symbols.values
-        return {values[one.name]: se.RealDouble(one.value) for one in self.scene.parameters}
+        values, fixed = self._symbols.values, [one for one in self.scene.parameters if one.name not in self.kept]
+        return {values[one.name]: se.RealDouble(one.value) for one in fixed}
+
+    @property
+    def _inputs(self) -> tuple[Expr, ...]:
+        return (*self._state, self._symbols.time, *(self._symbols.values[name] for name in self.kept))
 
     @property
     def _state(self) -> tuple[Expr, ...]:
@@ -83,7 +91,7 @@ class Observables:
         variables = (*state, symbols.time)
         slopes = [found.diff(each) for each in variables]
         return Observable(
-            compile_expressions(variables, [found, *slopes]),
+            compile_expressions(self._inputs, [found, *slopes]),
             tuple(place for place, symbol in enumerate(state) if symbol in used),
             symbols.time in used,
             tuple(place for place in range(len(symbols.free)) if slopes[place] in (1, -1)),
@@ -92,7 +100,7 @@ class Observables:
     def seen(self, asked: Sequence[Expression]) -> Compiled:
         """Several functions together, and the energy behind them; of q, q̇ and t."""
         outputs = [*(self._written(each) for each in asked), self._energy]
-        return compile_expressions((*self._state, self._symbols.time), outputs)
+        return compile_expressions(self._inputs, outputs)
 
     @property
     def _energy(self) -> Expr:

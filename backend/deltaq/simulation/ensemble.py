@@ -124,7 +124,18 @@ def _pair(
 
 
 def _run(ensemble: Ensemble, steps: Steps, flag: Flag, tell: Callable[[int], None]) -> Members:
-    """All motions in lanes, blocks of them in as many threads as there are processors."""
+    """All motions, at samples that are spread evenly."""
+    times = np.linspace(0.0, ensemble.problem.t_end, ensemble.problem.samples)
+    return in_lanes(ensemble, times, steps, flag, tell)
+
+
+def in_lanes(
+    ensemble: Ensemble, times: Floats, steps: Steps, flag: Flag, tell: Callable[[int], None] = lambda _done: None
+) -> Members:
+    """All motions from times[0] on, with samples at `times`, shape (samples,), ascending, each run once.
+
+    They go side by side in lanes, blocks of them in as many threads as there are processors.
+    """
     problem, count, recurrences = ensemble.problem, len(ensemble), ensemble.problem.model.recurrences
     jet = jet_of_model(problem.model, is_long=True, lanes=LANES)
     states = np.hstack([ensemble.states, np.zeros((count, jet.shape.width - 2 * problem.degrees))])
@@ -132,11 +143,10 @@ def _run(ensemble: Ensemble, steps: Steps, flag: Flag, tell: Callable[[int], Non
     if steps.is_nudged:
         states, constants = nudged(states), recurrences.nudged(constants)
     order = steps.order or SCHEME.order_for(steps.tolerance)
-    times = np.linspace(0.0, problem.t_end, problem.samples)
     members = Members(
         np.ascontiguousarray(states),
         constants,
-        times,
+        np.ascontiguousarray(times),
         np.full((count, len(times), jet.shape.width), np.nan),
         np.zeros(count, dtype=np.int64),
         np.zeros(count, dtype=np.int64),
@@ -153,8 +163,11 @@ def _run(ensemble: Ensemble, steps: Steps, flag: Flag, tell: Callable[[int], Non
         integrate_members(lanes, some, steps.tolerance, steps.size, problem.step_limit, flag)
         return len(some.states)
 
+    if count <= BLOCK:  # a thread would cost more than it brings
+        tell(block(0))
+        return members
     done = 0
-    with ThreadPoolExecutor(max_workers=max(1, min(os.cpu_count() or 1, -(-count // BLOCK)))) as pool:
+    with ThreadPoolExecutor(max_workers=min(os.cpu_count() or 1, -(-count // BLOCK))) as pool:
         for finished in pool.map(block, range(0, count, BLOCK)):
             done += finished
             tell(done)

@@ -122,8 +122,11 @@ def follow(
 
 
 @dataclass(frozen=True)
-class _Brackets:
-    """Parts of steps in which h − `shift` changes its sign, from `left`, at places θ from `a` to `b`."""
+class Brackets:
+    """Parts of steps in which h − `shift` changes its sign, from `left` to `right`, at places θ from `a` to `b`.
+
+    All have shape (parts,), `motions` are the numbers of motions.
+    """
 
     motions: Integers
     series: Polynomials
@@ -151,7 +154,7 @@ class _Search:
     def __init__(self, surface: Surface, march: March) -> None:
         self.surface, self.march, self.pending = surface, march, 0
         self.crossed, self._reach = np.zeros(march.count, dtype=np.int64), np.zeros(march.count)
-        self._kept: list[_Brackets] = []
+        self._kept: list[Brackets] = []
         rows, rates = march.rows()
         found = surface.values(rows)
         scale = (np.abs(found[:, 1:-1]) * np.abs(rows[:, :-1])).sum(axis=1)
@@ -200,7 +203,7 @@ class _Search:
 
     def _keep(self, which: Integers, series: Polynomials, *arrays: Floats) -> None:
         """Keeps brackets, of the motions of these numbers."""
-        self._kept.append(_Brackets(which, series, *arrays))
+        self._kept.append(Brackets(which, series, *arrays))
         self.pending += len(which)
         np.add.at(self.crossed, which, 1)
 
@@ -226,7 +229,7 @@ class _Search:
     def found(self) -> Crossings:
         """The crossings since it was last asked, motion by motion in their order."""
         kept, self._kept, self.pending = self._kept, [], 0
-        parts = [self._begun, *(_refined(each, self.surface) for each in _joined(kept))]
+        parts = [self._begun, *(refined(each, self.surface) for each in _joined(kept))]
         self._begun = self._begun.none
         names = ("motions", "times", "states", "speeds")
         motions, times, states, speeds = (np.concatenate([getattr(p, name) for p in parts]) for name in names)
@@ -264,15 +267,15 @@ def _lowest(
     return x, value
 
 
-def _joined(kept: list[_Brackets]) -> list[_Brackets]:
+def _joined(kept: list[Brackets]) -> list[Brackets]:
     """The brackets together, as one for all."""
     if len(kept) < 2:
         return kept
     arrays = {n: np.concatenate([getattr(k, n) for k in kept]) for n in ("motions", "a", "b", "left", "right", "shift")}
-    return [_Brackets(series=Polynomials.joined([k.series for k in kept]), **arrays)]
+    return [Brackets(series=Polynomials.joined([k.series for k in kept]), **arrays)]
 
 
-def _refined(found: _Brackets, surface: Surface) -> Crossings:
+def refined(found: Brackets, surface: Surface) -> Crossings:
     """The root in each bracket to rounding: Newton's step where it stays inside, else the middle."""
     a, b, series = found.a.copy(), found.b.copy(), found.series
     theta = a + (b - a) * found.left / (found.left - found.right)

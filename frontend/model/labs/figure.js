@@ -88,16 +88,19 @@ function axesOf(layout, palette) {
 
 /** @param {Trace} trace @param {Palette} palette @returns {Trace} */
 function inked(trace, palette) {
-  const { marker } = trace;
+  const { marker, line } = trace;
   const shown = (/** @type {string | null | undefined} */ color) => (color === INK ? palette.ink : color);
-  if (!marker || ![marker.color, marker.line?.color].includes(INK)) return trace;
+  if (![marker?.color, marker?.line?.color, line?.color].includes(INK)) return trace;
   return {
     ...trace,
-    marker: {
-      ...marker,
-      color: shown(marker.color),
-      ...(marker.line && { line: { ...marker.line, color: shown(marker.line.color) } }),
-    },
+    ...(line && { line: { ...line, color: shown(line.color) } }),
+    ...(marker && {
+      marker: {
+        ...marker,
+        color: shown(marker.color),
+        ...(marker.line && { line: { ...marker.line, color: shown(marker.line.color) } }),
+      },
+    }),
   };
 }
 

@@ -83,6 +83,7 @@ export const COURSE = [
       measured("horizon", "chaos"),
       measured("section", "poincare-section"),
       measured("uncertainty", "uncertainty"),
+      measured("cascade", "bifurcation"),
       measured("least", "fidelity"),
     ],
   },

@@ -7,6 +7,7 @@ import { failure } from "../failure.js";
 import { inLanguage } from "../../model/catalog.js";
 import { addEntry, addTool, titleOfPlace } from "../lectures/adding.js";
 import { titled, top } from "../top.js";
+import { bifurcations } from "./bifurcations.js";
 import { canvas } from "./cursor.js";
 import { form } from "./form.js";
 import { motion } from "./motion.js";
@@ -22,7 +23,7 @@ import { tolerance } from "./tolerance.js";
  *   labs: string[], known: import("../../model/labs/experiments.js").Experiments, t: import("../page.js").View["t"], methodTitle: (id: string) => string, charts: Chart[], dial: Dial, turn: (patch: Partial<Dial>) => void,
  *   save: (chart: Chart, format: "png" | "svg") => void, fetchFile: (accept: string) => void,
  *   play: Play | null, watch: (patch: object) => void, link: (patch: object) => string, open: (scene: import("../../model/own.js").SceneDocument) => void,
- *   sceneFrom: (initial: import("../../model/values.js").Changes["initial"]) => string,
+ *   sceneFrom: (initial: import("../../model/values.js").Changes["initial"], parameters?: Record<string, number>) => string,
  *   cursor: Cursor | null, point: (cursor: Cursor) => void, press: (chart: Chart, x: number, y: number, curve?: number) => void}} View
  * @typedef {import("./cursor.js").Cursor} Cursor
  * @typedef {{tolerance: number, step: number}} Dial  where the sliders stand: wanted error, step h in seconds
@@ -32,7 +33,7 @@ import { tolerance } from "./tolerance.js";
 /** What stands above and below the charts of a lab. @type {Record<string, (view: View) => unknown>} */
 const ABOVE = { "work-precision": tolerance, stability: slider };
 /** @type {Record<string, (view: View) => unknown>} */
-const BELOW = { stability: failures, fidelity: rungs, "poincare-section": orbits };
+const BELOW = { stability: failures, fidelity: rungs, "poincare-section": orbits, bifurcation: bifurcations };
 
 /** @param {View} view */
 export function page(view) {
