@@ -8,6 +8,8 @@ import io
 import json
 import time
 from collections.abc import AsyncIterator, Iterator
+from contextlib import contextmanager
+from dataclasses import replace
 from datetime import UTC, datetime
 from typing import Any
 
@@ -16,10 +18,12 @@ import pytest
 from fastapi import FastAPI
 from pydantic import BaseModel
 
+from deltaq.api.kernels import Kernels
 from deltaq.contract.experiment import ExperimentAnswer, request_of
 from deltaq.lab.library import experiment_ids, get_experiment
 from deltaq.narration.catalog import keys, text
 from deltaq.packages import classes_of
+from deltaq.simulation.library import ENSEMBLES, kernel_groups
 
 pytestmark = [pytest.mark.anyio, pytest.mark.usefixtures("laboratory")]
 
@@ -294,3 +298,31 @@ def test_every_experiment_has_a_title_in_both_languages(name: str) -> None:
 @pytest.mark.parametrize("lang", ["de", "en"])
 def test_the_menu_offers_the_experiments_that_there_are(lang: str) -> None:
     assert sorted(keys(lang, "labs.experiments")) == sorted(experiment_ids())
+
+
+@contextmanager
+def still_compiling(app: FastAPI, *groups: str) -> Iterator[None]:
+    """A service that waits in vain for some groups of kernels."""
+    before = app.state.service
+    missing = {group: asyncio.Event() for group in groups}
+    app.state.service = replace(before, kernels=Kernels(timeout=0.05, _compiled=missing))
+    try:
+        yield
+    finally:
+        app.state.service = before
+
+
+@pytest.mark.parametrize(("name", "status"), [("poincare-section", 200), ("bifurcation", 503), ("convergence", 503)])
+async def test_on_a_new_machine_an_experiment_waits_for_its_own_kernels_alone(
+    app: FastAPI, client: httpx.AsyncClient, name: str, status: int
+) -> None:
+    """Sections take none of those that are compiled beforehand; the lanes of ensembles, or all methods, do not come."""
+    with still_compiling(app, *kernel_groups()):
+        response = await client.post(address(name), json={**SMALL[name], "fresh": True})
+    assert response.status_code == status, response.text
+
+
+async def test_on_a_new_machine_an_experiment_comes_with_its_kernels(app: FastAPI, client: httpx.AsyncClient) -> None:
+    with still_compiling(app, *(group for group in kernel_groups() if group != ENSEMBLES)):
+        response = await client.post(address("bifurcation"), json={**SMALL["bifurcation"], "fresh": True})
+    assert response.status_code == 200, response.text

@@ -349,22 +349,28 @@ def test_one_compiled_kernel_serves_all_methods_scenes_and_experiments() -> None
     """In a process of its own: whoever calls a kernel by hand compiles it for his own arrays."""
     program = """
 import sys
+from deltaq.lab.experiments.bifurcation import EXPERIMENT as SWEEP
 from deltaq.lab.experiments.convergence import EXPERIMENT
+from deltaq.simulation.ensemble_answer import run as many
 from deltaq.simulation.integration import integrate, integrate_implicit, integrate_newmark, integrate_split
-from deltaq.simulation.library import families
+from deltaq.simulation.library import kernel_groups
 from deltaq.simulation.service import run, warm
-kernels = (integrate, integrate_implicit, integrate_newmark, integrate_split)
+from deltaq.simulation.ensemble import integrate_members
+kernels = (integrate, integrate_implicit, integrate_newmark, integrate_split, integrate_members)
 count = lambda: [len(kernel.signatures) for kernel in kernels]
 seen = []
-for family in families():
+for family in kernel_groups():
     warm(family)
     seen.append(count())
 run({"scene": "elastic-pendulum", "t_end": 1.0})
+many({"scene": "double-pendulum", "t_end": 1.0, "vary": {"parameters.l1": [0.5, 1.0]}})
+gamma = {"parameter": "gamma", "from": 1.0, "to": 1.06, "count": 8}
+assert [*SWEEP.run({"scene": "driven-pendulum", "sweep": gamma, "skip": 8})]
 assert [*EXPERIMENT.run({"scene": "pendulum", "t_end": 0.5})]
 print(seen[0], count())
 """
     told = subprocess.run([sys.executable, "-c", program], check=True, capture_output=True, text=True).stdout
-    assert told.splitlines()[-1] == "[1, 0, 0, 0] [1, 1, 1, 1]"
+    assert told.splitlines()[-1] == "[1, 0, 0, 0, 0] [1, 1, 1, 1, 1]"
 
 
 @pytest.mark.parametrize("chosen", [(), *((family,) for family in families()), families()[:2]], ids=" ".join)
@@ -372,9 +378,12 @@ def test_methods_of_the_families_that_are_named_are_warmed(
     monkeypatch: pytest.MonkeyPatch, chosen: tuple[str, ...]
 ) -> None:
     ran: list[str] = []
+    lanes: list[int] = []
     monkeypatch.setattr(service, "simulate", lambda _problem, method, **_options: ran.append(method.id))
+    monkeypatch.setattr(service.ensemble, "warm", lambda _problem: lanes.append(1))
     warm(*chosen)
     assert {get_method(name).family for name in ran} == set(chosen or families())
+    assert lanes == ([] if chosen else [1])
     assert set(method_ids()) - set(ran) == {
         name for name in method_ids() if chosen and get_method(name).family not in chosen
     }

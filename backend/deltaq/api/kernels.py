@@ -7,7 +7,7 @@ import logging
 from dataclasses import dataclass, field
 from typing import Any
 
-from ..simulation.library import families, get_method
+from ..simulation.library import ENSEMBLES, get_method, kernel_groups
 from ..vocabulary import AUTO
 from .workers.job import Job, JobError, Overloaded
 from .workers.kernels import are_compiled, mark_as_compiled
@@ -21,20 +21,23 @@ USUAL = "dop853"  # what `auto` takes nearly always
 
 @dataclass(frozen=True)
 class Kernels:
-    """The kernels of each family of methods: compiled by the jobs named, waited for `patience` seconds at most."""
+    """The kernels of each group, a family of methods or the lanes of ensembles: compiled by the jobs named.
+
+    They are waited for `timeout` seconds at most.
+    """
 
     warm: Job = WARM
     warm_laboratory: Job = WARM_LABORATORY
     timeout: float = 120.0
-    _compiled: dict[str, asyncio.Event] = field(default_factory=dict)  # of the families that are being compiled
+    _compiled: dict[str, asyncio.Event] = field(default_factory=dict)  # of what is being compiled
 
     async def compile(self, pool: Pool, laboratory: Pool, workers: int) -> None:
         """Compile what is not compiled yet, each family in a worker of its own; so many at a time may be taken."""
         if are_compiled():  # then every worker is born with them
             return
-        self._compiled.update({family: asyncio.Event() for family in families()})
+        self._compiled.update({family: asyncio.Event() for family in kernel_groups()})
         taken = asyncio.Semaphore(workers)
-        jobs = [self._compile(family, pool, taken) for family in families()]
+        jobs = [self._compile(family, pool, taken) for family in kernel_groups()]
         if all(await asyncio.gather(*jobs)) and await _ran(laboratory, self.warm_laboratory, {}):
             mark_as_compiled()
 
@@ -47,18 +50,22 @@ class Kernels:
             self._compiled[family].set()
 
     async def wait(self, *methods: str) -> None:
-        """Until the kernels of these methods are there, of all if none is named.
+        """Until the kernels of these methods (or ensembles) are there, all if none is named.
 
         Raises Overloaded if that takes too long, UnknownNameError for a method that does not exist.
         """
-        wanted = {get_method(USUAL if method == AUTO else method).family for method in methods}
+        wanted = {_group_of(method) for method in methods}
         try:
             async with asyncio.timeout(self.timeout):
-                for family in wanted or families():
+                for family in wanted or kernel_groups():
                     if family in self._compiled:
                         await self._compiled[family].wait()
         except TimeoutError:
             raise Overloaded("the numerical kernels are still being compiled") from None
+
+
+def _group_of(method: str) -> str:
+    return ENSEMBLES if method == ENSEMBLES else get_method(USUAL if method == AUTO else method).family
 
 
 async def _ran(pool: Pool, job: Job, document: dict[str, Any]) -> bool:

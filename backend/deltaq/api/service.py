@@ -77,15 +77,26 @@ class Service:
         async with self.pool.asked(key, ACCOUNT.get()):
             return await _shared(partial(self.cache.get, key, compute, on_update))
 
-    async def measurement(self, key: str, job: Job, document: Any, on_update: OnUpdate, *, anew: bool) -> bytes:
+    async def measurement(
+        self,
+        key: str,
+        job: Job,
+        document: Any,
+        on_update: OnUpdate,
+        *,
+        anew: bool,
+        kernels: tuple[str, ...] | None = None,
+    ) -> bytes:
         """The gzipped JSON of an experiment; `on_update` receives its place in the queue and its parts before.
 
-        `anew` measures what is in the cache already. Who has been let in waits for minutes, and is not refused for what
-        the experiments have cost that he asked for at the same time.
+        `anew` measures what is in the cache already. It waits for the `kernels` that it takes, all if None. Who has
+        been let in waits for minutes, and is not refused for what the experiments have cost that he asked for at the
+        same time.
         """
 
         async def compute(publish: OnUpdate) -> bytes:
-            await self.kernels.wait()
+            if kernels is None or kernels:
+                await self.kernels.wait(*(kernels or ()))
             account = ACCOUNT.get()
             account.admit()
             measured = await self.laboratory.run(

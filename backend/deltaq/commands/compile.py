@@ -26,13 +26,13 @@ def run(_options: argparse.Namespace) -> None:
 
 
 def _compile() -> None:
-    """Each family of methods, then what only the lab needs."""
+    """Each family of methods and the lanes of ensembles, then what only the lab needs."""
     from ..api.workers.kernels import mark_as_compiled
     from ..lab import divergence, monodromy
-    from ..simulation.library import families
+    from ..simulation.library import kernel_groups
     from ..simulation.service import warm
 
-    for family in families():
+    for family in kernel_groups():
         start = perf_counter()
         warm(family)
         print(f"{family:22} {perf_counter() - start:5.1f} s", flush=True)

@@ -46,6 +46,7 @@ class ExperimentRequest(SceneWithInitialValues):
 
     experiment: ClassVar[str]
     answer: ClassVar[type[ExperimentAnswer]] = ExperimentAnswer
+    kernels: ClassVar[tuple[str, ...] | None] = None  # the methods, or ensembles, whose kernels it takes; None: of all
 
     t_end: float = Field(10.0, ge=SHORTEST, le=LONGEST, description="seconds of motion", examples=[10.0])
     lang: AskedLanguage = None

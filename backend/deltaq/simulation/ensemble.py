@@ -105,6 +105,12 @@ def run_ensemble(
     return found
 
 
+def warm(problem: Problem) -> None:
+    """Compiles the kernel of the lanes, or loads it from the cache on disk."""
+    states, parameters = problem.state[None, : 2 * problem.degrees], np.array(problem.parameters)[None, :]
+    run_ensemble(Ensemble(problem, states, parameters), 1e-6)
+
+
 def needs_single_runs(ensemble: Ensemble) -> bool:
     """Whether the lanes cannot do these motions."""
     model = ensemble.problem.model

@@ -9,6 +9,8 @@ from ..errors import Problem, UnknownNameError
 from ..packages import modules_of
 from .method import Method
 
+ENSEMBLES = "ensembles"  # many motions side by side, in a kernel of their own
+
 
 @cache
 def _methods() -> dict[str, Method]:
@@ -24,6 +26,12 @@ def method_ids() -> tuple[str, ...]:
 def families() -> tuple[str, ...]:
     """The families of methods, explicit ones first; each has kernels of its own."""
     return tuple(dict.fromkeys(method.family for method in _methods().values()))
+
+
+def kernel_groups() -> tuple[str, ...]:
+    """What is compiled, and waited for, by itself: the families of methods, and the lanes of ensembles."""
+    first, *others = families()
+    return (first, ENSEMBLES, *others)
 
 
 def get_method(identifier: str) -> Method:

@@ -17,6 +17,7 @@ from ..mechanics.scene import Scene
 from ..model.model import Observation, compile_model
 from ..model.modes import modes_of
 from ..model.reactions import reactions
+from . import ensemble
 from .answer import Document, answer
 from .auto import choose
 from .choice import Choice, check
@@ -24,7 +25,7 @@ from .consistency import consistent
 from .derivatives import power
 from .driver import simulate
 from .event import event_values
-from .library import get_method, method_ids
+from .library import ENSEMBLES, get_method, method_ids
 from .outcome import Outcome
 from .problem import Floats, Problem, Released
 from .request import Request, read_request
@@ -132,13 +133,15 @@ def problem_of(scene: Scene, t_end: float, samples: int = 501) -> Problem:
 
 
 def warm(*chosen: str) -> None:
-    """Compiles the kernels of some families of methods, or loads them from the cache on disk; of all if none is named.
+    """Compiles some groups of kernels, or loads them from the cache on disk; all if none is named.
 
-    That is a first run with each method.
+    That is a first run with each method, and one of an ensemble.
     """
     for method in map(get_method, method_ids()):
         if not chosen or method.family in chosen:
             simulate(problem_of(load_scene("pendulum"), 0.1, 2), method, step=0.05)
+    if not chosen or ENSEMBLES in chosen:
+        ensemble.warm(problem_of(load_scene("pendulum"), 0.1, 2))
 
 
 def _finite(trajectory: Trajectory, seen: Observation, watts: Floats) -> tuple[Trajectory, Observation]:

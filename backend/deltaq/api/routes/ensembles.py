@@ -5,6 +5,7 @@ from __future__ import annotations
 from fastapi import APIRouter, Request, Response
 
 from ...contract.ensemble import EnsembleAnswer, EnsembleRequest
+from ...simulation.library import ENSEMBLES
 from ..body import StrictRoute
 from ..responses import packed
 from ..service import service_of
@@ -21,5 +22,5 @@ async def run_ensemble(request: Request, body: EnsembleRequest) -> Response:
     service = service_of(request)
     question = question_of(request, body)
     key = service.key(ENSEMBLE.target, question)
-    await service.kernels.wait("taylor")
+    await service.kernels.wait("taylor", ENSEMBLES)
     return packed(request, key, await service.answer(key, ENSEMBLE, {"request": question}))

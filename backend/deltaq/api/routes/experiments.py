@@ -107,7 +107,7 @@ async def _measured(request: Request, experiment: str, body: ExperimentRequest) 
     key, accepted = service.key(job.target, question | {"lang": ""}), request.headers.get("accept", "")
 
     async def measured(hear: OnUpdate) -> bytes:
-        result = await service.measurement(key, job, question, hear, anew=anew)
+        result = await service.measurement(key, job, question, hear, anew=anew, kernels=body.kernels)
         return await _drawn(service, result, question["lang"])
 
     if MEDIA_TYPE in accepted:

@@ -96,6 +96,7 @@ class BifurcationRequest(ExperimentRequest):
 
     experiment: ClassVar[str] = "bifurcation"
     answer: ClassVar[type[ExperimentAnswer]] = BifurcationAnswer
+    kernels: ClassVar[tuple[str, ...] | None] = ("ensembles",)
 
     t_end: float = Field(2000.0, ge=SHORTEST, le=LONGEST, description="seconds at each value, at most")
     sweep: MapAxis = Field(description="the parameter, from where to where, and how many values", examples=[])

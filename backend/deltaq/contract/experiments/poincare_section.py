@@ -59,6 +59,7 @@ class PoincareSectionRequest(ExperimentRequest):
 
     experiment: ClassVar[str] = "poincare-section"
     answer: ClassVar[type[ExperimentAnswer]] = PoincareSectionAnswer
+    kernels: ClassVar[tuple[str, ...] | None] = ()
 
     t_end: float = Field(200.0, ge=SHORTEST, le=LONGEST, description="seconds of each motion, at most")
     plane: Asked = Field(

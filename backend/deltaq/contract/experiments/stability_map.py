@@ -60,6 +60,7 @@ class StabilityMapRequest(ExperimentRequest):
 
     experiment: ClassVar[str] = "stability-map"
     answer: ClassVar[type[ExperimentAnswer]] = StabilityMapAnswer
+    kernels: ClassVar[tuple[str, ...] | None] = ("dop853",)
 
     x: MapAxis = Field(description="to the right")
     y: MapAxis = Field(description="upwards")

@@ -71,6 +71,7 @@ class UncertaintyRequest(ExperimentRequest):
 
     experiment: ClassVar[str] = "uncertainty"
     answer: ClassVar[type[ExperimentAnswer]] = UncertaintyAnswer
+    kernels: ClassVar[tuple[str, ...] | None] = ("taylor", "ensembles")
 
     t_end: float = Field(10.0, ge=SHORTEST, le=LONGEST, description="seconds of each motion")
     uncertain: Uncertain = Field("start", description="what has the tolerance: initial values and rates, or others")
