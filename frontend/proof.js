@@ -10,8 +10,10 @@ import { api } from "./server.js";
 import { sheet } from "./view/bring.js";
 import { follow } from "./view/links.js";
 import { enterFullscreen, toggleFullscreen } from "./view/fullscreen.js";
-import { dressed } from "./view/header.js";
+import { isGuest } from "./view/guest.js";
+import { dressed, stopTitle } from "./view/header.js";
 import { listen } from "./view/keys.js";
+import { add } from "./view/lectures/adding.js";
 import { missed } from "./view/missed.js";
 import { openDialog, overlays } from "./view/overlays.js";
 import { page } from "./view/proof.js";
@@ -62,6 +64,9 @@ function enterLecture() {
   session.move({ view: "lecture" });
   enterFullscreen();
 }
+
+/** What is shown becomes a stop of the viewer's lecture; a lecture that is being given gets no more stops. */
+const addShown = () => isGuest() || add(stopTitle({ state: store.get(), t: texts() }), texts());
 
 /** The presenter's window belongs to a lecture. */
 async function present() {
@@ -132,6 +137,7 @@ const pressEarlyKeys = listen(document, {
   more,
   lecture: enterLecture,
   presenter: () => void present(),
+  add: () => void addShown(),
   fullscreen: toggleFullscreen,
   overlay: session.overlay,
   play() {},

@@ -14,8 +14,10 @@ import { expectLong } from "./view/formula.js";
 import { follow } from "./view/links.js";
 import { everyFrame } from "./view/frames.js";
 import { enterFullscreen, toggleFullscreen } from "./view/fullscreen.js";
-import { dressed } from "./view/header.js";
+import { dressed, stopTitle } from "./view/header.js";
 import { announce, createReach, toggleSubsteps } from "./view/reach.js";
+import { add } from "./view/lectures/adding.js";
+import { isGuest } from "./view/guest.js";
 import { keeper } from "./view/keeper.js";
 import { listen } from "./view/keys.js";
 import { linkHighlights } from "./view/highlight.js";
@@ -51,6 +53,9 @@ async function present() {
   session.move({ view: "lecture", edit: "" });
   (await aside.lecture.want())?.present();
 }
+
+/** What is shown becomes a stop of the viewer's lecture; a lecture that is being given gets no more stops. @param {import("./view/page.js").View} shown */
+const addShown = (shown) => isGuest() || add(stopTitle(shown), shown.t);
 
 function view() {
   const state = store.get();
@@ -123,6 +128,7 @@ const pressEarlyKeys = listen(document, {
   play: motion.play,
   lecture: enterLecture,
   presenter: () => void present(),
+  add: () => void addShown(view()),
   covered: () => store.get().overlay !== "",
   uncover: () => session.overlay(""),
   substeps: () => toggleSubsteps(root, store.get().place.step),

@@ -13,6 +13,7 @@ export const KEYS = [
   [["Escape", "o"], "help.overview"],
   [["l"], "help.lecture"],
   [["s"], "help.presenter"],
+  [["a"], "help.add"],
   [["ArrowDown", "ArrowUp"], "help.parts"],
   [["t"], "help.pace"],
   [["d"], "help.beside"],

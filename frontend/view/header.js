@@ -58,21 +58,19 @@ const action = (label, press) => html`
 /** Above a derivation. @typedef {Pick<View, "enterLecture" | "t"> & {session: Pick<View["session"], "overlay">,
  *   state: Pick<View["state"], "lines" | "place"> & {scene?: View["state"]["scene"]}}} Above */
 
-/** What a stop at the present step is called. @param {Above} view */
-const stopTitle =
-  ({ state, t }) =>
-  () => {
-    const { lines, place, scene } = state;
-    const subject = scene ? inLanguage(scene.title, place.lang) : t("place.proof");
-    return titleOfPlace(lines.find(({ step }) => step.id === place.step)?.step.title, subject);
-  };
+/** What a stop at the present step is called. @param {Pick<Above, "state" | "t">} view */
+export function stopTitle({ state, t }) {
+  const { lines, place, scene } = state;
+  const subject = scene ? inLanguage(scene.title, place.lang) : t("place.proof");
+  return titleOfPlace(lines.find(({ step }) => step.id === place.step)?.step.title, subject);
+}
 
 /** @param {Above} view */
 export function buttons(view) {
   const { session, enterLecture, t } = view;
   return html`
     <button class="tool" title=${t("tool.share")} aria-label=${t("tool.share")} @click=${() => session.overlay("share")}>${icon("share")}</button>
-    ${addTool(stopTitle(view), t)}
+    ${addTool(() => stopTitle(view), t)}
     <button class="tool" title=${t("tool.overview")} aria-label=${t("tool.overview")} @click=${() => session.overlay("overview")}>${icon("overview")}</button>
     <button class="tool wide-only" title=${t("tool.lecture")} aria-label=${t("tool.lecture")} @click=${enterLecture}>${icon("lecture")}</button>
     <button class="tool wide-only" title=${t("tool.help")} aria-label=${t("tool.help")} @click=${() => session.overlay("help")}>${icon("help")}</button>`;
@@ -88,7 +86,7 @@ export function actions(view) {
     action(t("tool.overview"), () => session.overlay("overview")),
     action(t("tool.share"), () => session.overlay("share")),
     action(t("tool.lecture"), enterLecture),
-    addEntry(stopTitle(view), t),
+    addEntry(() => stopTitle(view), t),
   ];
 }
 

@@ -18,6 +18,7 @@ const PRESSED = "button, a, summary";
  * @property {() => void} substeps
  * @property {() => void} [lecture]
  * @property {() => void} [presenter]
+ * @property {() => void} [add]  what is shown becomes a stop of the viewer's lecture
  * @property {() => void} [undo]  what was changed last, by Ctrl+Z
  * @property {() => void} [redo]  by Ctrl+Shift+Z or Ctrl+Y
  * @property {() => Record<string, () => void>} [more]  what keys mean at this moment besides
@@ -25,9 +26,10 @@ const PRESSED = "button, a, summary";
  */
 
 /** What each key does. @param {Keys} keys @returns {Record<string, () => void>} */
-export function table({ go, fullscreen, overlay, play, substeps, lecture = () => {}, presenter = () => {} }) {
+export function table({ go, fullscreen, overlay, play, substeps, lecture, presenter, add }) {
   const next = () => go(1);
   const previous = () => go(-1);
+  const none = () => {};
   return {
     ArrowRight: next,
     " ": next,
@@ -47,8 +49,9 @@ export function table({ go, fullscreen, overlay, play, substeps, lecture = () =>
     g: () => overlay("jump"),
     k: play,
     e: substeps,
-    l: lecture,
-    s: presenter,
+    l: lecture ?? none,
+    s: presenter ?? none,
+    a: add ?? none,
   };
 }
 

@@ -53,11 +53,17 @@ def titles(page: Page) -> list[str]:
 
 def test_places_become_a_lecture_that_is_arranged_and_saved(lecture: Lecture) -> None:
     page = lecture.page
-    for place, ready in (("proof?step=single-force&lang=en", ".steps .katex"), ("labs?lab=chaos&lang=en", ".purpose")):
-        page.goto(lecture.address + place)
-        page.locator(ready).first.wait_for(state="attached")
-        page.get_by_role("button", name="Add this place to my lecture").click()
-        expect(page.locator(".added")).to_be_visible()
+    page.goto(f"{lecture.address}proof?step=single-force&lang=en&view=lecture")
+    page.locator(".slide .katex").first.wait_for()
+    page.keyboard.press("a")
+    note, content = page.locator(".added").bounding_box(), page.locator(".slide .scroll").bounding_box()
+    assert note is not None
+    assert content is not None
+    assert note["y"] + note["height"] <= content["y"]
+    page.goto(f"{lecture.address}labs?lab=chaos&lang=en")
+    page.locator(".purpose").wait_for(state="attached")
+    page.get_by_role("button", name="Add this place to my lecture").click()
+    expect(page.locator(".added")).to_be_visible()
     page.locator(".added a").click()
     first = "Single force · General proof"
     until_equal(page, lambda: [title.split()[0] for title in titles(page)], ["Single", "Chaos"])

@@ -11,7 +11,7 @@ let telling = 0;
  * What is shown becomes a stop of the lecture that this browser keeps.
  * @param {string} title @param {import("../../model/catalog.js").Translate} t
  */
-async function add(title, t) {
+export async function add(title, t) {
   const part = await import("./append.js").catch(() => null);
   if (!part) return tell(t("adding.missed"), t);
   const number = part.append(title);
