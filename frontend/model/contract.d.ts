@@ -3199,6 +3199,12 @@ export interface components {
             array: number[];
             /** Arrayminus */
             arrayminus: number[];
+            /**
+             * Color
+             * @description with two more digits for its opacity
+             * @example #0072b240
+             */
+            color?: string | null;
             /** Thickness */
             thickness: number;
             /** Width */

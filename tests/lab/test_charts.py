@@ -6,7 +6,7 @@ import csv
 import io
 import json
 import os
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from datetime import UTC, datetime
 from functools import cache
 from typing import Any
@@ -19,6 +19,7 @@ from deltaq.contract.experiment import ExperimentRequest
 from deltaq.contract.figure import Chart
 from deltaq.lab.charts.chart import look
 from deltaq.lab.charts.words import called, spoken, words
+from deltaq.lab.charts.work_precision import STORY
 from deltaq.lab.experiment import drawn
 from deltaq.lab.export import page, table
 from deltaq.lab.library import experiment_ids, get_experiment
@@ -157,8 +158,41 @@ def test_charts_write_symbols_and_the_words_of_the_scene() -> None:
 
 
 def test_methods_are_told_apart_by_look() -> None:
-    looks = [(look(name)["color"], look(name)["dash"]) for name in method_ids()]
-    assert len(set(looks)) == len(method_ids())
+    colors = [look(name)["color"] for name in method_ids()] + [look(f"scipy-{name}")["color"] for name in PEERS]
+    assert len(set(colors)) == len(colors)
+    assert len({(look(name)["symbol"], look(name)["dash"]) for name in method_ids()}) == len(method_ids())
+
+
+def point_of(method: str) -> dict[str, Any]:
+    return {
+        "method": method,
+        "tolerance": 0.1,
+        "status": "ok",
+        "error": 0.01,
+        "evaluations": 9,
+        "time": 1e-4,
+        "times": [],
+    }
+
+
+@pytest.mark.parametrize(
+    ("methods", "hidden"),
+    [
+        pytest.param(method_ids(), set(method_ids()) - set(STORY), id="all"),
+        pytest.param((*method_ids(), "scipy-RK45"), set(method_ids()) - set(STORY), id="with peers"),
+        pytest.param(("heun", "rk4", "newmark"), set(), id="few"),
+        pytest.param(tuple(set(method_ids()) - set(STORY[1:])), set(), id="no story"),
+    ],
+)
+def test_of_many_methods_five_are_shown_and_the_others_are_a_click_away(
+    methods: Sequence[str], hidden: set[str]
+) -> None:
+    *_, last = reports("work-precision")
+    result = last.result | {"points": [point_of(method) for method in methods], "orders": {}}
+    for chart in get_experiment("work-precision").charts(result, words(text, "en")):
+        away = {trace["legendgroup"] for trace in chart["data"] if trace.get("visible") == "legendonly"}
+        assert away == hidden
+        assert ("a click on its name" in chart["caption"]) == bool(hidden)
 
 
 def test_peers_are_told_apart_by_symbol() -> None:

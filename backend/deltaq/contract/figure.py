@@ -61,6 +61,7 @@ class ErrorBars(Answer):
     symmetric: bool
     array: tuple[float, ...]
     arrayminus: tuple[float, ...]
+    color: str | None = Field(None, description="with two more digits for its opacity", examples=["#0072b240"])
     thickness: float
     width: float
 

@@ -19,6 +19,12 @@ Result = Mapping[str, Any]
 
 INK, GRID = "#222222", "#dddddd"
 PALETTE = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#6b5b95", "#7f7f00")
+# One for each method, by rising order; the five of the story (`work_precision`) have those that differ most.
+METHODS = (
+    *("#8c564b", "#b8860b", "#7f7f00", "#56b4e9", "#a0522d", "#009e73", "#6b5b95", "#008b8b"),
+    *("#c71585", "#e69f00", "#4682b4", "#d55e00", "#808000", "#0072b2", "#cc79a7", "#5f9e00"),
+)
+PEER_COLORS = ("#999999", "#666666", "#8a9ba8", "#a89984", "#7d6b7d")
 SYMBOLS = ("circle", "square", "diamond", "triangle-up", "triangle-down", "pentagon", "star", "hexagon")
 DASHES = ("solid", "dash", "dot")
 FAILED = "x-thin-open"
@@ -59,13 +65,14 @@ def axis(title: str, *, log: bool = False, **more: Any) -> dict[str, Any]:
 
 
 def look(name: str) -> dict[str, Any]:
-    """Colour, symbol and dash of a method, the same in every chart; others (peers) are grey."""
+    """Colour, symbol and dash of a method, the same in every chart and no other's; others (peers) are nearly grey."""
     known = method_ids()
     if name not in known:
         place = PEERS.index(name.removeprefix("scipy-"))
-        return {"color": "#888888", "symbol": f"{SYMBOLS[place]}-open", "dash": "dash"}
-    turn, place = divmod(known.index(name), len(PALETTE))
-    return {"color": PALETTE[place], "symbol": SYMBOLS[(place + 3 * turn) % len(SYMBOLS)], "dash": DASHES[turn]}
+        return {"color": PEER_COLORS[place], "symbol": f"{SYMBOLS[place]}-open", "dash": "dash"}
+    turn, place = divmod(known.index(name), len(SYMBOLS))
+    color = METHODS[known.index(name) % len(METHODS)]
+    return {"color": color, "symbol": SYMBOLS[(place + 3 * turn) % len(SYMBOLS)], "dash": DASHES[turn]}
 
 
 def name_of(method: str, say: Say) -> str:

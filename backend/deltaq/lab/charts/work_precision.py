@@ -6,6 +6,7 @@ from collections.abc import Iterator, Mapping
 from itertools import pairwise
 from typing import Any
 
+from ...simulation.library import method_ids
 from .chart import (
     CEILING,
     FAILED,
@@ -19,10 +20,14 @@ from .chart import (
     curve,
     grouped,
     joined,
+    look,
     name_of,
 )
 from .words import Say, written_date
 
+STORY = ("stormer-verlet", "rk4", "radau-5", "dop853", "taylor")  # what is seen at first, where there are many
+FEW = 6  # methods that are all seen at once
+BARS = "40"  # the opacity of bars, as the last two digits of a colour: points stand out
 RANGE = [-15.5, 2.0]  # decades of the error
 
 
@@ -54,24 +59,37 @@ def _one(result: Result, say: Say, x: str, x_axis: dict[str, Any], caption: str)
     traces = list(_traces(result, say, x))
     y_axis = axis(say("labs.axis.error"), log=True, range=RANGE, dtick=2)
     title = say(f"labs.work-precision.title-{x}")
+    if any(trace.get("visible") for trace in traces):
+        caption = f"{caption} {say('labs.work-precision.others')}"
     return chart(f"work-precision-{x}", title, caption, traces, xaxis=x_axis, yaxis=y_axis)
 
 
 def _traces(result: Result, say: Say, x: str) -> Iterator[Trace]:
+    shown = _shown(result)
     least = min((point[x] for point in result["points"] if point[x] > 0), default=1e-6)
-    for method, points in grouped(result["points"]).items():
+    groups = grouped(result["points"])
+    for method, points in sorted(groups.items(), key=lambda item: item[0] not in shown):
         good = [point for point in points if point["error"] is not None and point[x] > 0]
         name, order = name_of(method, say), result["orders"].get(method)
         label = name if order is None else say("labs.work-precision.with-slope", name=name, slope=order)
         texts = [_hover(point, name, say) for point in good]
         floor = [max(point["error"], 10 ** RANGE[0]) for point in good]
-        more = _spread(good) if x == "time" else {}
-        yield curve(label, [p[x] for p in good], floor, method, text=texts, hoverinfo="text", **more)
-        yield from _failures(points, method, x, least, say)
+        more = _spread(good, look(method)["color"]) if x == "time" else {}
+        seen = {} if method in shown else {"visible": "legendonly"}
+        yield curve(label, [p[x] for p in good], floor, method, text=texts, hoverinfo="text", **more, **seen)
+        yield from (trace | seen for trace in _failures(points, method, x, least, say))
 
 
-def _spread(points: list[Mapping[str, Any]]) -> Trace:
-    """The fastest and slowest of the repeated runs, as bars."""
+def _shown(result: Result) -> set[str]:
+    """The methods that are seen at first: of many those that tell the story, and all peers, who were asked for."""
+    methods = set(grouped(result["points"]))
+    own = {method for method in methods if method in method_ids()}
+    story = own & set(STORY)
+    return methods if len(own) <= FEW or len(story) < len(STORY) - 2 else story | (methods - own)
+
+
+def _spread(points: list[Mapping[str, Any]], color: str) -> Trace:
+    """The fastest and slowest of the repeated runs, as pale bars."""
     up = [p["times"][-1] - p["time"] if p["times"] else 0.0 for p in points]
     down = [p["time"] - p["times"][0] if p["times"] else 0.0 for p in points]
     return {
@@ -80,6 +98,7 @@ def _spread(points: list[Mapping[str, Any]]) -> Trace:
             "symmetric": False,
             "array": up,
             "arrayminus": down,
+            "color": color + BARS,
             "thickness": 1,
             "width": 0,
         }
