@@ -98,7 +98,7 @@ function pressed(chart, x, y, curve = 0) {
 
 /** @param {Chart} chart @param {number} x @param {number} y */
 function onMap(chart, x, y) {
-  const map = chart.data.find((trace) => trace.meta?.role === "map" || trace.meta?.role === "flips")?.meta;
+  const map = chart.data.find((trace) => ["map", "flips", "basins"].includes(trace.meta?.role ?? ""))?.meta;
   if (map) watch(pointOf(bench.get().question, map, x, y));
 }
 

@@ -202,7 +202,7 @@ def test_lab_takes_a_scene_of_ones_own(tmp_path: Path, root: Path) -> None:
     [
         pytest.param(
             ["chaoss", "pendulum"],
-            "deltaq: There is no experiment “chaoss”. Did you mean “chaos”? There are: bifurcation, chaos, "
+            "deltaq: There is no experiment “chaoss”. Did you mean “chaos”? There are: basins, bifurcation, chaos, "
             "convergence, energy-drift, fidelity, poincare-section, stability, stability-map, uncertainty, "
             "work-precision.\n",
             id="experiment",

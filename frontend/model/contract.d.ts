@@ -104,6 +104,26 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/v1/experiments/basins": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Where motions from a grid of starts end
+         * @description Where motions from a grid of starts end: attractors, their shares, and the dimension of the boundary.
+         */
+        post: operations["basins"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/v1/experiments/bifurcation": {
         parameters: {
             query?: never;
@@ -1114,6 +1134,39 @@ export interface components {
             lang?: ("de" | "en") | null;
         };
         /**
+         * Attractor
+         * @description A motion that others come to: a rest, or one that repeats itself after some periods of what drives the scene.
+         */
+        Attractor: {
+            /**
+             * State
+             * @description where it is at the beginning of a period, by free coordinate
+             */
+            state: {
+                [key: string]: components["schemas"]["Begin"];
+            };
+            /**
+             * Period
+             * @description seconds after which it repeats itself; null: a position of rest
+             */
+            period: number | null;
+            /**
+             * Contraction
+             * @description what is left of a deviation after a second, at most: below 1
+             */
+            contraction: number;
+            /**
+             * Share
+             * @description the part of the starts that come to it
+             */
+            share: number;
+            /**
+             * Interval
+             * @description of that part: as if the starts were drawn at random
+             */
+            interval: number[];
+        };
+        /**
          * Axis
          * @description An axis with its quantity and unit.
          */
@@ -1183,6 +1236,211 @@ export interface components {
         Band: {
             low: components["schemas"]["EquilibriumValue"];
             high: components["schemas"]["EquilibriumValue"];
+        };
+        /**
+         * BasinSide
+         * @description What stands on a side of the map, and the starts along it.
+         */
+        BasinSide: {
+            /**
+             * Quantity
+             * @description a coordinate, or dot of it: its rate
+             * @example x
+             */
+            quantity: string;
+            /** Values */
+            values: number[];
+        };
+        /**
+         * BasinsAnswer
+         * @description Which attractor each start of a plane comes to, and how fine the boundary is.
+         */
+        BasinsAnswer: {
+            /**
+             * Experiment
+             * @example work-precision
+             */
+            experiment: string;
+            /** Scene */
+            scene: string;
+            /**
+             * Title
+             * @description of the scene, by language
+             */
+            title: {
+                [key: string]: string;
+            };
+            /**
+             * Names
+             * @description how what the scene names is written; words by language
+             */
+            names: {
+                [key: string]: string | {
+                    [key: string]: string;
+                };
+            };
+            /**
+             * T End
+             * @description seconds of motion
+             */
+            t_end: number;
+            /**
+             * Parameters
+             * @description their values
+             */
+            parameters: {
+                [key: string]: number;
+            };
+            /**
+             * Initial
+             * @description where the motion began, by free coordinate
+             */
+            initial: {
+                [key: string]: components["schemas"]["Begin"];
+            };
+            /** Charts */
+            charts: components["schemas"]["Chart"][];
+            /** @description where the answer has times */
+            taken?: components["schemas"]["Measured"] | null;
+            x: components["schemas"]["BasinSide"];
+            y: components["schemas"]["BasinSide"];
+            /**
+             * Basins
+             * @description row by row the number of the attractor; null: not known yet, −1: it came to none in time
+             */
+            basins: (number | null)[][];
+            /** Attractors */
+            attractors: components["schemas"]["Attractor"][];
+            /** Confidence */
+            confidence: number;
+            /**
+             * Driven
+             * @description whether something drives the scene periodically
+             */
+            driven: boolean;
+            /**
+             * Unsettled
+             * @description the part of the starts that came to no attractor in time, or ended early
+             */
+            unsettled: number;
+            /**
+             * Unsure
+             * @description the part whose motion is not known well enough to tell
+             */
+            unsure: number;
+            /**
+             * Neighbourhoods
+             * @description empty until they are looked at
+             */
+            neighbourhoods: components["schemas"]["Neighbourhood"][];
+            /** @description null: too few uncertain starts, or a single attractor */
+            boundary: components["schemas"]["BoundaryDimension"] | null;
+        };
+        /**
+         * BasinsRequest
+         * @description Where motions from a grid of starts end: attractors, their shares, and the dimension of the boundary.
+         * @example {
+         *       "count": 12,
+         *       "pairs": 0,
+         *       "scene": "magnetic-pendulum",
+         *       "t_end": 10
+         *     }
+         */
+        BasinsRequest: {
+            /**
+             * @description a built-in scene by its id, or a scene document of format 1
+             * @example elastic-pendulum
+             */
+            scene: components["schemas"]["Scene"];
+            /**
+             * Guides
+             * @description coordinates to be made functions of time
+             */
+            guides?: components["schemas"]["GuideChange"][];
+            /**
+             * Freeze
+             * @description coordinates to be held constant
+             * @example []
+             */
+            freeze?: string[];
+            /**
+             * Parameters
+             * @description values of parameters
+             * @example {
+             *       "l": 0.8
+             *     }
+             */
+            parameters?: components["schemas"]["BasinsRequestParameters"];
+            /**
+             * Initial
+             * @description where the motion begins, by coordinate
+             * @example {
+             *       "phi": {
+             *         "value": 0.5
+             *       }
+             *     }
+             */
+            initial?: components["schemas"]["BasinsRequestInitial"];
+            /**
+             * T End
+             * @description seconds of motion; what has not settled goes on, up to four times
+             */
+            t_end?: number;
+            /**
+             * Lang
+             * @description language of the texts; else Accept-Language decides
+             */
+            lang?: ("de" | "en") | null;
+            /**
+             * Fresh
+             * @description whether to measure anew what was measured before, as Cache-Control: no-cache does
+             */
+            fresh?: boolean;
+            /**
+             * Horizontal
+             * @description a coordinate, or dot(NAME) for its rate; empty: the first
+             */
+            horizontal?: string;
+            /**
+             * Vertical
+             * @description another one; empty: the next coordinate, or the rate of the only one
+             */
+            vertical?: string;
+            /**
+             * X From
+             * @description where the map begins; if empty, the least value of the scene's slider
+             */
+            x_from?: number | null;
+            /**
+             * X To
+             * @description where it ends
+             */
+            x_to?: number | null;
+            /**
+             * Y From
+             * @description the same, upwards
+             */
+            y_from?: number | null;
+            /**
+             * Y To
+             * @description where it ends
+             */
+            y_to?: number | null;
+            /**
+             * Count
+             * @description starts on a side of the grid
+             */
+            count?: number;
+            /**
+             * Pairs
+             * @description starts whose neighbours at 7 distances are looked at; 0: none
+             */
+            pairs?: number;
+            /**
+             * Seed
+             * @description of these starts
+             */
+            seed?: number;
         };
         /**
          * BatchAnswer
@@ -1517,6 +1775,18 @@ export interface components {
              * @description periods after which a motion closes, at most
              */
             folds?: number;
+        };
+        /**
+         * BoundaryDimension
+         * @description Of the boundary of the basins: 2 less the exponent α by which the part of uncertain starts falls, f ~ ε^α.
+         */
+        BoundaryDimension: {
+            /** Dimension */
+            dimension: number;
+            /** Interval */
+            interval: number[];
+            /** Exponent */
+            exponent: number;
         };
         /**
          * BoundaryTerm
@@ -5127,6 +5397,22 @@ export interface components {
             spoken: string;
         };
         /**
+         * Neighbourhood
+         * @description How many starts have a neighbour at a distance that comes to another attractor.
+         */
+        Neighbourhood: {
+            /**
+             * Distance
+             * @description over the sides of the map
+             */
+            distance: number;
+            /**
+             * Uncertain
+             * @description the part of the starts
+             */
+            uncertain: number;
+        };
+        /**
          * NoFlipMap
          * @description Why there is no map.
          */
@@ -8363,6 +8649,11 @@ export interface components {
                 string
             ][] | null;
             colorbar?: components["schemas"]["ColorBar"] | null;
+            /**
+             * Showscale
+             * @description whether its scale stands beside a map
+             */
+            showscale?: boolean | null;
             /** Text */
             text?: string[] | null;
             /** Textposition */
@@ -8398,7 +8689,7 @@ export interface components {
         TraceMeaning: {
             /**
              * Role
-             * @description eigenvalues, map, flips, orbit, sweep, branch, or without-result
+             * @description eigenvalues, map, flips, basins, orbit, sweep, branch, or without-result
              * @example eigenvalues
              */
             role: string;
@@ -9344,6 +9635,20 @@ export interface components {
          */
         EnsembleRequestColumns: "numbers" | "base64";
         /**
+         * BasinsRequestParameters
+         * @default {}
+         */
+        BasinsRequestParameters: {
+            [key: string]: number;
+        };
+        /**
+         * BasinsRequestInitial
+         * @default {}
+         */
+        BasinsRequestInitial: {
+            [key: string]: components["schemas"]["InitialValue"];
+        };
+        /**
          * BifurcationRequestParameters
          * @default {}
          */
@@ -9790,6 +10095,36 @@ export interface operations {
                 };
                 content: {
                     "application/json": components["schemas"]["ExperimentList"];
+                };
+            };
+        };
+    };
+    basins: {
+        parameters: {
+            query?: never;
+            header?: {
+                /** @description `no-cache` measures anew what was measured before */
+                "Cache-Control"?: string;
+            };
+            path?: never;
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["BasinsRequest"];
+            };
+        };
+        responses: {
+            /** @description the answer */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["BasinsAnswer"];
+                    "text/event-stream": string;
+                    "text/html": string;
+                    "text/csv": string;
                 };
             };
         };

@@ -166,6 +166,7 @@ class Draw(random.Random):
             "chaos": {"apart": self.often(1e-6)},
             "fidelity": {"tolerance": self.often(0.01)},
             "poincare-section": {"energy": self.number(), "count": 2} if self.random() < 0.5 else {"count": 2},
+            "basins": {"x_to": self.often(1.0), "count": 8, "pairs": 0},
             "uncertainty": {"tolerance": self.often(0.01), "runs": 30},
             "bifurcation": {
                 "sweep": {"parameter": "omega", "from": self.number(), "to": self.number(), "count": 8},

@@ -49,6 +49,7 @@ SMALL: dict[str, dict[str, Any]] = {key: {"scene": "pendulum", "t_end": 1.0} for
     },
     "poincare-section": {"scene": "coupled-pendulums", "t_end": 6.0, "count": 2, "crossings": 5},
     "uncertainty": {"scene": "coupled-pendulums", "t_end": 3.0, "runs": 40},
+    "basins": {"scene": "damped-pendulum", "count": 8, "pairs": 0, "t_end": 40.0},
 }
 
 

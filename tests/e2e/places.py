@@ -20,6 +20,7 @@ LABS = (
     "poincare-section",
     "uncertainty",
     "bifurcation",
+    "basins",
     "fidelity",
 )
 CLASS = """student,scene,task,answer,syntax,line

@@ -59,7 +59,7 @@ test("a problem in the stream, a refusal and a stream that breaks off are failur
   assert.equal((await failing(answering("event: part\ndata: {}\n\n"))).status, 0);
 });
 
-const ASKED = { ...NOTHING, lab: "stability-map", scene: "kapitza", duration: 5, peers: true, steps: 1000, plane: "phi", direction: "both", horizontal: "", vertical: "dot(phi)^2", energy: -1.5, grid: 4, crossings: 80, skip: 7, uncertain: "all", spread: 0.02, tolerances: "phi = 0.1; dot(phi) = 0,25, l = x", distribution: "uniform", runs: 50, share: 10, at: /** @type {const} */ ("rest"), stiffness: "k", x: { parameter: "omega", from: -10, to: 120.5 }, y: { parameter: "y0", from: 0.01, to: 0.2 }, sweep: { parameter: "y0", from: 0.01, to: 0.2 }, period: "", passing: "both", settle: 7, shown: 48, folds: 8, orbits: true, flips: false, allowed: 0.5, parameters: { l: 0.4 }, initial: { phi: { value: -1.5, rate: 2 } } };
+const ASKED = { ...NOTHING, lab: "stability-map", scene: "kapitza", duration: 5, peers: true, steps: 1000, plane: "phi", direction: "both", horizontal: "", vertical: "dot(phi)^2", energy: -1.5, grid: 4, crossings: 80, skip: 7, uncertain: "all", spread: 0.02, tolerances: "phi = 0.1; dot(phi) = 0,25, l = x", distribution: "uniform", runs: 50, share: 10, x_from: -1, x_to: 2, y_from: null, y_to: 0, "basin-grid": 20, pairs: 9, basin_x: "phi", basin_y: "dot(phi)", at: /** @type {const} */ ("rest"), stiffness: "k", x: { parameter: "omega", from: -10, to: 120.5 }, y: { parameter: "y0", from: 0.01, to: 0.2 }, sweep: { parameter: "y0", from: 0.01, to: 0.2 }, period: "", passing: "both", settle: 7, shown: 48, folds: 8, orbits: true, flips: false, allowed: 0.5, parameters: { l: 0.4 }, initial: { phi: { value: -1.5, rate: 2 } } };
 
 test("every question has an address, and the usual one a short one", () => {
   assert.deepEqual(readQuestion(`?${writeQuestion(ASKED)}`), ASKED);
@@ -71,12 +71,13 @@ test("an address that makes no sense is read as the usual", () => {
 });
 
 test("each lab asks for what it knows", () => {
-  const bodies = Object.fromEntries(["work-precision", "convergence", "energy-drift", "stability", "stability-map", "chaos", "poincare-section", "bifurcation", "uncertainty", "fidelity"].map((lab) => [lab, Object.keys(requestOf({ ...ASKED, lab }, "kapitza", "en")).filter((key) => !["scene", "parameters", "initial", "lang"].includes(key)).sort()]));
+  const bodies = Object.fromEntries(["work-precision", "convergence", "energy-drift", "stability", "stability-map", "chaos", "poincare-section", "bifurcation", "uncertainty", "basins", "fidelity"].map((lab) => [lab, Object.keys(requestOf({ ...ASKED, lab }, "kapitza", "en")).filter((key) => !["scene", "parameters", "initial", "lang"].includes(key)).sort()]));
   assert.deepEqual(bodies, {
     "work-precision": ["peers", "t_end"], convergence: ["t_end"], "energy-drift": ["steps"], stability: ["at", "stiffness", "t_end"],
     "stability-map": ["x", "y"], chaos: ["map", "t_end"], "poincare-section": ["count", "direction", "energy", "plane", "skip", "t_end", "vertical"],
     bifurcation: ["direction", "plane", "skip", "sweep", "t_end", "vertical"],
-    uncertainty: ["distribution", "runs", "share", "t_end", "tolerance", "tolerances", "uncertain"], fidelity: ["t_end", "tolerance"],
+    uncertainty: ["distribution", "runs", "share", "t_end", "tolerance", "tolerances", "uncertain"],
+    basins: ["count", "horizontal", "pairs", "t_end", "vertical", "x_from", "x_to", "y_to"], fidelity: ["t_end", "tolerance"],
   });
   assert.equal(/** @type {any} */ (requestOf({ ...ASKED, lab: "fidelity" }, "kapitza", "en")).tolerance, 0.005);
   const body = /** @type {any} */ (requestOf({ ...ASKED, lab: "uncertainty" }, "kapitza", "en"));
@@ -86,6 +87,7 @@ test("each lab asks for what it knows", () => {
 test("a place on a map is two parameters, or two angles at rest", () => {
   assert.deepEqual(pointOf(ASKED, { role: "map", x: "omega", y: "y0" }, 30, 0.1), { parameters: { l: 0.4, omega: 30, y0: 0.1 }, initial: ASKED.initial });
   assert.deepEqual(pointOf(ASKED, { role: "flips", x: "a", y: "b" }, 1, 2), { parameters: { l: 0.4 }, initial: { phi: { value: -1.5, rate: 0 }, a: { value: 1, rate: 0 }, b: { value: 2, rate: 0 } } });
+  assert.deepEqual(pointOf(ASKED, { role: "basins", x: "phi", y: "dot(phi)" }, 1, -3), { parameters: { l: 0.4 }, initial: { phi: { value: 1, rate: -3 } } });
 });
 
 test("a place in a bifurcation diagram is the motion next to it, of the part that is pressed", () => {

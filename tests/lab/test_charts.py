@@ -52,6 +52,7 @@ QUESTIONS: dict[str, dict[str, Any]] = {key: {"scene": "pendulum", "t_end": 1.0}
     },
     "poincare-section": {"scene": "coupled-pendulums", "t_end": 6.0, "count": 2, "crossings": 5},
     "uncertainty": {"scene": "coupled-pendulums", "t_end": 6.0, "runs": 70},
+    "basins": {"scene": "magnetic-pendulum", "count": 12, "pairs": 30, "t_end": 10.0},
 }
 
 

@@ -70,7 +70,7 @@ class TraceMeaning(Answer):
     """What a trace shows that its look does not tell."""
 
     role: str = Field(
-        description="eigenvalues, map, flips, orbit, sweep, branch, or without-result", examples=["eigenvalues"]
+        description="eigenvalues, map, flips, basins, orbit, sweep, branch, or without-result", examples=["eigenvalues"]
     )
     x: str | None = Field(None, description="of a map: whose values stand on its axis")
     y: str | None = Field(None, description="likewise")
@@ -91,6 +91,7 @@ class Trace(Answer):
     zmax: float | None = None
     colorscale: tuple[tuple[float, str], ...] | None = None
     colorbar: ColorBar | None = None
+    showscale: bool | None = Field(None, description="whether its scale stands beside a map")
     text: tuple[str, ...] | None = None
     textposition: str | None = None
     hoverinfo: str | None = None

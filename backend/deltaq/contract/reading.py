@@ -54,6 +54,7 @@ CODES: Mapping[str, str] = MappingProxyType(
         "section-too-large": "section-too-large",
         "uncertainty-too-large": "uncertainty-too-large",
         "bifurcation-too-large": "bifurcation-too-large",
+        "basins-too-large": "basins-too-large",
         "request-outside": "request-outside",
         "request-not-text": "request-not-text",
         "request-not-number": "request-not-number",

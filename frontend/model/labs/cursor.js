@@ -10,8 +10,9 @@ const WAYS = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowDown: [0, -1], Arrow
 
 /** The map in a chart, if it has one: its trace with x, y, z and who stands on the axes. @param {Chart} chart @returns {MapTrace | null} */
 export const mapOf = (chart) =>
-  /** @type {MapTrace | undefined} */ (chart.data.find(({ meta }) => meta?.role === "map" || meta?.role === "flips")) ??
-  null;
+  /** @type {MapTrace | undefined} */ (
+    chart.data.find(({ meta }) => ["map", "flips", "basins"].includes(meta?.role ?? ""))
+  ) ?? null;
 
 /** @param {MapTrace} map @returns {Spot} */
 export const middleOf = (map) => ({ column: Math.floor(map.x.length / 2), row: Math.floor(map.y.length / 2) });

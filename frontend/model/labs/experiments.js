@@ -1,5 +1,6 @@
 /** The experiments for whose questions the page has words of its own, each in a file: here they are named, in the order of their answers in the address. Any other is asked what the service says may be asked. */
 
+import basins from "./experiments/basins.js";
 import bifurcation from "./experiments/bifurcation.js";
 import chaos from "./experiments/chaos.js";
 import convergence from "./experiments/convergence.js";
@@ -26,6 +27,7 @@ const EXPERIMENTS = {
   "poincare-section": poincareSection,
   uncertainty,
   bifurcation,
+  basins,
   fidelity,
 };
 

@@ -114,10 +114,19 @@ export function inLab(question, lab, known = KNOWN) {
   return { ...shown, ...Object.fromEntries(said.map(({ name }) => [name, question[name]])) };
 }
 
-/** The motion at a point of a map: two parameters, or two angles at rest. @param {Question} question @param {import("./chart.js").Contract["TraceMeaning"]} map @param {number} x @param {number} y @returns {Pick<Question, "parameters" | "initial">} */
+/** @param {Question["initial"]} initial @param {string} quantity  a coordinate, or dot of one: its rate @param {number} amount */
+function begunAt(initial, quantity, amount) {
+  const name = /^dot\((.+)\)$/.exec(quantity)?.[1];
+  return name
+    ? { ...initial, [name]: { ...initial[name], rate: amount } }
+    : { ...initial, [quantity]: { ...initial[quantity], value: amount } };
+}
+
+/** The motion at a point of a map: two parameters, two components of the start, or two angles at rest. @param {Question} question @param {import("./chart.js").Contract["TraceMeaning"]} map @param {number} x @param {number} y @returns {Pick<Question, "parameters" | "initial">} */
 export function pointOf({ parameters, initial }, { role, ...axes }, x, y) {
   const [across, up] = [axes.x ?? "", axes.y ?? ""];
   if (role === "map") return { parameters: { ...parameters, [across]: x, [up]: y }, initial };
+  if (role === "basins") return { parameters, initial: begunAt(begunAt(initial, across, x), up, y) };
   const still = Object.fromEntries(Object.entries(initial).map(([name, start]) => [name, { ...start, rate: 0 }]));
   return { parameters, initial: { ...still, [across]: { value: x, rate: 0 }, [up]: { value: y, rate: 0 } } };
 }

@@ -84,6 +84,7 @@ export const COURSE = [
       measured("section", "poincare-section"),
       measured("uncertainty", "uncertainty"),
       measured("cascade", "bifurcation"),
+      measured("basins", "basins"),
       measured("least", "fidelity"),
     ],
   },
