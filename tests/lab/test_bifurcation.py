@@ -14,7 +14,9 @@ from scipy.special import mathieu_a, mathieu_b
 from tests.simulation.scenes import document
 
 from deltaq.errors import InputError
+from deltaq.lab.charts.words import words
 from deltaq.lab.library import get_experiment
+from deltaq.narration.catalog import text
 
 DRAG = {"kind": "dissipation", "name": "drag", "function": "c*dot(x)^2/2"}
 
@@ -69,6 +71,16 @@ def test_doublings_of_the_driven_pendulum_are_those_of_taylor() -> None:
     assert max(one["error"] for one in found["bifurcations"]) < 1e-8
     assert found["up"][0]["folds"] == 1
     assert found["period"] == pytest.approx(1.0)
+
+
+def test_the_caption_tells_twins_once() -> None:
+    """A symmetric scene has each motion twice; the table has both."""
+    found = cascade()
+    twice = {**found, "bifurcations": [one for one in found["bifurcations"] for _ in range(2)]}
+    say = words(text, "en")
+    caption = get_experiment("bifurcation").charts(twice, say)[0]["caption"]
+    assert caption == get_experiment("bifurcation").charts(found, say)[0]["caption"]
+    assert caption.count("1.0663729 (1)") == 1
 
 
 def multiplier(gamma: float, start: dict[str, Any], periods: int) -> tuple[complex, float]:

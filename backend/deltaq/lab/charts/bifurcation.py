@@ -181,8 +181,10 @@ def _told(result: Result, say: Say) -> Iterator[str]:
     if open_ended:
         yield say(f"{KEY}.unsettled", count=open_ended)
     for kind in KINDS:
-        found = [one for one in result["bifurcations"] if one["kind"] == kind]
-        places = "; ".join(f"{_digits(one['value'], 8, say)} ({one['folds']})" for one in found[:MOST_TOLD])
+        some = [one for one in result["bifurcations"] if one["kind"] == kind]
+        # twins of a symmetric scene have the same values: each is told once
+        found = list(dict.fromkeys(f"{_digits(one['value'], 8, say)} ({one['folds']})" for one in some))
+        places = "; ".join(found[:MOST_TOLD])
         if found:
             yield say(f"{KEY}.at", kind=say(f"{KEY}.{kind}"), parameter=name, places=places)
         if len(found) > MOST_TOLD:
