@@ -53,6 +53,14 @@ def test_both_wells_of_duffing_have_half_of_the_plane() -> None:
     assert (found["unsettled"], found["unsure"], found["driven"]) == (0.0, 0.0, False)
 
 
+def test_a_rest_that_nothing_comes_to_is_no_attractor() -> None:
+    """A start in the saddle of Duffing stays there for ever, and comes to no attractor."""
+    found = ask(scene=DUFFING, **SQUARE, t_end=40.0, count=9)
+    assert sorted(round(one["state"]["x"]["value"], 5) for one in found["attractors"]) == [-1.0, 1.0]
+    assert found["basins"][4][4] == -1
+    assert found["unsettled"] == pytest.approx(1.0 / 81.0, abs=1e-4)
+
+
 def test_the_boundary_of_duffing_without_a_drive_is_a_curve() -> None:
     """It is the stable manifold of the saddle: its dimension is 1."""
     boundary = of_duffing()["boundary"]
