@@ -4335,6 +4335,14 @@ export interface components {
             students: string[];
         };
         /**
+         * FrictionAnswer
+         * @description The force of a load with dry friction along its coordinate, and the largest that could hold, at the samples.
+         */
+        FrictionAnswer: {
+            force: components["schemas"]["Column"];
+            largest: components["schemas"]["Column"];
+        };
+        /**
          * GeneralizedForces
          * @description Q and its split into the part that has a potential and the rest.
          */
@@ -7315,6 +7323,13 @@ export interface components {
              */
             loads?: {
                 [key: string]: components["schemas"]["VectorColumn"];
+            } | null;
+            /**
+             * Friction
+             * @description by load, with `loads`: what acts, and F₀ up to which it can hold
+             */
+            friction?: {
+                [key: string]: components["schemas"]["FrictionAnswer"];
             } | null;
             /**
              * Multipliers

@@ -57,7 +57,8 @@ function fits({ curves, least }, values, axes) {
 }
 
 /**
- * Coordinates of the same unit share a row as long as each is to be seen in it; reactions have one, the energies the last.
+ * Coordinates of the same unit share a row as long as each is to be seen in it; reactions have one, each friction has,
+ * the energies have the last.
  * @param {Scene} scene @param {Trajectory} trajectory @param {Look} look
  * @returns {Row[]}
  */
@@ -97,7 +98,11 @@ function rowsOfOne(scene, trajectory, look) {
     if (!shared) rows.push(row);
   });
   const span = look.span && spanOf(look, endOf(trajectory));
-  const others = [...reactionRows(scene, trajectory, look), ...energyRow(trajectory, look)];
+  const others = [
+    ...reactionRows(scene, trajectory, look),
+    ...frictionRows(scene, trajectory, look),
+    ...energyRow(trajectory, look),
+  ];
   return [...rows.map(({ of: _, ...row }) => row), ...others].map((row) =>
     span ? { ...row, curves: row.curves.map((curve) => within(curve, ...span)) } : row,
   );
@@ -142,6 +147,44 @@ function reactionRows(scene, { t: times, multipliers }, { hidden }) {
     });
   });
   return [...rows.values()];
+}
+
+/**
+ * The force R of each friction between ±F⁰, which it reaches where what sticks begins to slip.
+ * @param {Scene} scene @param {Trajectory} trajectory @param {Look} look @returns {Row[]}
+ */
+function frictionRows(scene, { t: times, friction }, { hidden }) {
+  const { coordinates, constraints, loads } = scene;
+  const several = Object.keys(friction ?? {}).length > 1;
+  return Object.entries(friction ?? {}).map(([name, { force, largest }], k) => {
+    const along = coordinates.find((one) => one.name === loads.find((load) => load.name === name)?.coordinate);
+    const curve = (/** @type {string} */ key, /** @type {string} */ latex, /** @type {number[]} */ values) => ({
+      key: `${key}-${name}`,
+      name: several ? `${latex} (${name})` : latex,
+      latex,
+      className: `q-${coordinates.length + (constraints ?? []).length + k}`,
+      values,
+      times,
+      at: smooth(times, values),
+      decimals: decimalsKnown(times, values, []),
+      dash: key === "friction" ? "solid" : "dash",
+      band: false,
+      beside: false,
+      wrapped: false,
+      hidden: hidden.includes(`${key}-${name}`),
+    });
+    const index = several ? `_{${k + 1}}` : "";
+    const curves = [
+      curve("friction", `R${index}`, force),
+      curve("most", `F^0${index}`, largest),
+      curve(
+        "least",
+        `-F^0${index}`,
+        largest.map((value) => -value),
+      ),
+    ];
+    return { key: `friction${k}`, unit: CONJUGATE[along?.unit ?? ""] ?? "", least: 0, curves };
+  });
 }
 
 /** What works through a displacement of this unit. @type {Record<string, string>} */

@@ -97,6 +97,7 @@ function quantitiesOf(trajectory) {
         .map((values) => quantity(values)),
     ),
     ...Object.values(trajectory.multipliers ?? {}).map((values) => quantity(values)),
+    ...Object.values(trajectory.friction ?? {}).map(({ force }) => quantity(force)),
     ...(energy ? together([energy.kinetic, energy.potential, energy.balance].map((values) => quantity(values))) : []),
   ];
 }

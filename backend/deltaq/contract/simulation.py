@@ -123,6 +123,13 @@ class TransitionAnswer(Answer):
     error: float | None = Field(description="estimated error of the time in seconds; null where it is not known")
 
 
+class FrictionAnswer(Answer):
+    """The force of a load with dry friction along its coordinate, and the largest that could hold, at the samples."""
+
+    force: Column
+    largest: Column
+
+
 class Cost(Answer):
     """What it took: steps are those of the run that is returned, the rest that of all runs; times in seconds."""
 
@@ -154,6 +161,9 @@ class SimulationAnswer(Answer):
     rates: dict[str, Column] | None = None
     positions: dict[str, VectorColumn] | None = None
     loads: dict[str, VectorColumn] | None = Field(None, description="force vectors")
+    friction: dict[str, FrictionAnswer] | None = Field(
+        None, description="by load, with `loads`: what acts, and F₀ up to which it can hold"
+    )
     multipliers: dict[str, Column] | None = Field(
         None,
         description="of constraints, as far as they are unique (of a distance the force, positive in tension), and Z of"

@@ -233,6 +233,8 @@ def script(scene: Scene, language: str, t_end: float, release: Sequence[str] = (
         "forcing": words.vector(smooth_forcing(system)),
         "positions": "{" + ", ".join(_positions(system, words)) + "}",
     }
+    if scene.constraints and switches(system):
+        raise RequestError(Problem("program-jumps-with-constraints", "/scene"))
     if scene.constraints:
         content |= _constrained(system, words, content)
     else:

@@ -71,8 +71,6 @@ class Scene:
         yield from _repeated("/events", [event.name for event in self.events])
         for index, event in enumerate(self.events):
             yield from self._restitution_problems(f"/events/{index}/restitution", event)
-            if event.bounces and self.constraints:
-                yield Problem("bounce-with-constraints", f"/events/{index}/then", parameters={"name": event.name})
         yield from _repeated("/constraints", [constraint.name for constraint in self.constraints])
         yield from self._multiplier_problems()
         yield from filter(None, (load_name_problem(load.name, f"/loads/{i}/name") for i, load in enumerate(self.loads)))

@@ -6,6 +6,8 @@ by a reaction has a flag φ of 0 or 1:
 
     M q̈ = f + Aᵀ Φ λ,   φ (A q̈ + γ) + (1 − φ) λ = 0,   γ = d/dt of (a, b) along the motion, without q̈.
 
+Where the scene has constraints of its own, their reactions stand in M q̈ = … as well, and M⁻¹ is that part of the
+inverse of [M Aᵀ; A 0] which keeps to them.
 The reaction λ of a coordinate that sticks is the friction force, that of a contact the normal force along ∂g/∂q.
 Source: Pfeiffer, Glocker, Multibody Dynamics with Unilateral Contacts, ch. 4–6.
 """
@@ -48,7 +50,8 @@ class Modes:
     The parameters behind the scene's own are σ of every kink and every friction, then φ of every row (frictions, then
     contacts), then an offset ε of every watched value. Watched are, in this order: the scene's other events, kinks
     (σ s), frictions (σ w while slipping, F₀ − λ; then F₀ + λ), contacts (g, or λ at rest). `facts` gives for each row
-    a, w, γ; for each friction F₀; for each contact g, ∂g/∂t, e; the values s of all kinks; at last λ of every row.
+    a, w, γ; for each friction F₀; for each contact g, ∂g/∂t, e; the values s of all kinks; λ of every row; at last for
+    each friction the force R as it is, −σF while slipping and λ while sticking.
     """
 
     scene: Scene
@@ -228,9 +231,10 @@ class _Assembly:
         if not self.rows:
             return ()
         forcing = [self._held(force) for force in self._forcing]
-        m = len(self.rows)
-        columns = [*(list(row.a) for row in self.rows), forcing]
-        solved = _solve(self.plain.mass_matrix, columns)
+        m, kept = len(self.rows), self.plain.constraints
+        none = [ZERO] * len(kept.names)
+        columns = [*([*row.a, *none] for row in self.rows), [*forcing, *kept.accelerations]]
+        solved = [each[: len(forcing)] for each in _solve(self._augmented, columns)]
         flexibility = [[_dot(row.a, solved[j]) for j in range(m)] for row in self.rows]
         load = [-(_dot(row.a, solved[m]) + row.bias) for row in self.rows]
         matrix = [
@@ -242,6 +246,13 @@ class _Assembly:
         ]
         right = [self.flags[i] * load[i] for i in range(m)]
         return tuple(_solve(tuple(map(tuple, matrix)), [right])[0])
+
+    @property
+    def _augmented(self) -> tuple[tuple[Expr, ...], ...]:
+        """[M Aᵀ; A 0], of q̈ and −λ of the constraints: what a reaction moves keeps to them."""
+        kept = self.plain.constraints.jacobian
+        upper = ((*row, *(each[i] for each in kept)) for i, row in enumerate(self.plain.mass_matrix))
+        return (*upper, *((*each, *([ZERO] * len(kept))) for each in kept))
 
     @property
     def equations(self) -> Equations:
@@ -284,7 +295,14 @@ class _Assembly:
             event, restitution = self.plain.events[index], self.scene.events[index].restitution
             coefficient = ZERO if restitution is None else to_symengine(restitution.tree, self.plain.symbols)
             found += [event, event.diff(self.plain.symbols.time), coefficient]
-        return [*found, *self.kinks, *self.reactions]
+        return [*found, *self.kinks, *self.reactions, *self._friction_forces()]
+
+    def _friction_forces(self) -> Iterator[Expr]:
+        """R = φ λ − (1 − φ) σ F"""
+        for k, part in enumerate(self.frictions):
+            force = self._smooth(guided_into(self.scene, to_symengine(part.force, self.plain.symbols)))
+            flag = self.flags[k]
+            yield flag * self.reactions[k] - (ONE - flag) * self.sigmas_of_friction[k] * force
 
 
 @dataclass(frozen=True)
@@ -325,7 +343,7 @@ def _is_switched(piece: Expr, states: set[Expr], rates: set[Expr]) -> bool:
 
 
 def _solve(matrix: Sequence[Sequence[Expr]], columns: Sequence[Sequence[Expr]]) -> list[list[Expr]]:
-    """Solutions of a symmetric positive definite system for several right-hand sides, by elimination."""
+    """Solutions of a symmetric system for several right-hand sides, by elimination; M comes first in it."""
     n = len(matrix)
     rows = [[*row] for row in matrix]
     rights = [[*column] for column in columns]

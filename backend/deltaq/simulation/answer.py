@@ -12,6 +12,7 @@ from ..model.model import Observation
 from .choice import Choice
 from .columns import WRITERS, Column
 from .derivatives import power
+from .friction import FrictionForce
 from .outcome import Outcome
 from .problem import Floats, Moved, Problem
 from .request import Request
@@ -25,7 +26,13 @@ UNKNOWN_ERROR = 1e-12  # to round by where no error estimate was asked for
 
 
 def answer(
-    request: Request, choice: Choice, problem: Problem, trajectory: Trajectory, seen: Observation, compile_time: float
+    request: Request,
+    choice: Choice,
+    problem: Problem,
+    trajectory: Trajectory,
+    seen: Observation,
+    compile_time: float,
+    frictions: Mapping[str, FrictionForce],
 ) -> Document:
     """The answer to a request as plain data. All numbers are finite, and rounded to what their error supports."""
     errors = trajectory.estimate.errors if trajectory.estimate else np.full(len(trajectory.times), UNKNOWN_ERROR)
@@ -37,6 +44,8 @@ def answer(
         parts["error"] = _error(problem, trajectory, request.tolerance)
     if problem.is_constrained:
         parts |= _constrained(request, problem, trajectory)
+    if "loads" in request.include and frictions:
+        parts["friction"] = _friction(frictions, column)
     if "multipliers" in request.include and problem.reactions:
         parts["multipliers"] = _multipliers(problem, trajectory, column)
     return {
@@ -158,6 +167,15 @@ def _multipliers(problem: Problem, trajectory: Trajectory, column: Callable[[Flo
         name: column(rounded(reactions.multipliers[:, k], _doubts(known, k, len(trajectory.times))))
         for k, name in _unique(problem)
     }
+
+
+def _friction(frictions: Mapping[str, FrictionForce], column: Callable[[Floats], Column]) -> Document:
+    """R and F₀ of each load with friction."""
+
+    def written(values: Floats) -> Column:
+        return column(rounded(values, np.full(len(values), UNKNOWN_ERROR * max(1.0, np.abs(values).max(initial=0.0)))))
+
+    return {name: {"force": written(each.force), "largest": written(each.largest)} for name, each in frictions.items()}
 
 
 def _unique(problem: Problem) -> list[tuple[int, str]]:

@@ -6,7 +6,7 @@ import numpy as np
 
 from .integration import motion_of
 from .kernels.derivatives import evaluate_rhs
-from .problem import Floats, Problem, Stretch
+from .problem import Floats, Problem, Stretch, numbers_of_stretches
 
 
 def derivatives(problem: Problem, times: Floats, states: Floats) -> Floats:
@@ -38,10 +38,7 @@ def power(problem: Problem, times: Floats, states: Floats, stretches: tuple[Stre
     """
     if not stretches:
         return derivatives(problem, times, states)[:, -1] if problem.model.layout.is_powered else np.zeros(len(times))
-    starts = np.array([each.start for each in stretches])
-    before, behind = (np.searchsorted(starts, times, side=side) - 1 for side in ("left", "right"))
-    follows = np.append(times[1:] == times[:-1], False)
-    number = np.maximum(np.where(follows, before, behind), 0)
+    number = numbers_of_stretches(times, stretches)
     found = np.zeros(len(times))
     for k in np.unique(number):
         here = number == k

@@ -20,7 +20,7 @@ from .event import EventOccurrence
 from .integration import Flag
 from .method import Method, Series
 from .problem import Floats, Problem, Stretch
-from .reactions import reactions_at
+from .reactions import reactions_along
 from .refinement import BySeries, ByStep, ByTolerance, Refinement
 from .rounding import significant
 from .run import Stop
@@ -121,7 +121,8 @@ def _trajectory(
     times, states, errors = _with_both_sides(transitions, *_shown(best, _refined(problem)))
     reactions = None
     if problem.reactions:
-        states, reactions = reactions_at(problem, times, states)
+        stretches = () if problem.released else tuple(Stretch(each.start, each.problem) for each in best.chosen.meshes)
+        states, reactions = reactions_along(problem, times, states, stretches)
         times, errors = times[: len(states)], errors[: len(states)]
     return Trajectory(
         method.id,

@@ -17,11 +17,13 @@ from ..model.model import DISTURBANCE
 from .derivatives import accelerations
 from .event import Approach, EventOccurrence, event_values
 from .problem import Floats, Problem
+from .reactions import reactions_at
 from .run import Run
 from .stiffness import NUDGE
 
 # Neighbourhoods as parts of all samples to each side, and what counts of the wider one.
 NEAR, FAR, SHARE = 160, 10, 0.5
+SLOPES = 160  # samples at which the slopes of multipliers are taken
 ANYWHERE = 0.1  # what counts of the largest before and behind, wherever it is
 TURNING = 4.0  # times the largest difference nearby: more than that no phase hides where a motion turns back
 ROUNDING, EPSILON = 4e-16, 2.0**-52
@@ -80,7 +82,9 @@ def estimate(problem: Problem, coarse: Run, fine: Run, factor: float) -> Estimat
     doubts = np.vstack([errors, np.maximum(spread[n:], floor)])
     of_event = _of_event(problem, coarse, fine, factor, doubts[:, -1])
     doubtful = _doubtful(problem, coarse, fine, times, doubts)
-    return Estimate(errors.max(axis=0), worst, horizon, of_event, stop, doubtful, _of_multipliers(coarse, fine, factor))
+    spreads = _spread(factors * difference[: 2 * n] + np.minimum(difference[: 2 * n], CLOSE))
+    reactions = _of_multipliers(problem, coarse, fine, spreads)
+    return Estimate(errors.max(axis=0), worst, horizon, of_event, stop, doubtful, reactions)
 
 
 def larger(one: Estimate, other: Estimate) -> Estimate:
@@ -131,21 +135,42 @@ def with_rounding(problem: Problem, found: Estimate, fine: Run, other: Run) -> E
     return replace(found, errors=errors, worst=worst, multipliers=reactions)
 
 
-def _of_multipliers(coarse: Run, fine: Run, factor: float) -> Floats | None:
+def _of_multipliers(problem: Problem, coarse: Run, fine: Run, doubts: Floats) -> Floats | None:
     """The error of each multiplier, shape (samples, m); None where there are none.
 
-    λ follows from q and q̇ without any integration, so its difference is that of two runs like theirs, and its rounding
-    that of the terms it is left of, which are about as large as the largest λ.
+    λ follows from q and q̇ without any integration: its error is Σ |∂λ/∂y| times theirs, `doubts`, shape (2n, samples).
+    Where λ peaks, as in a rod that whips round, it may be a hundred times what it is in between, so that a difference
+    of two λ spread over a neighbourhood would say too much there, and too little beside it. Rounding is that of the
+    terms it is left of, which are about as large as the largest λ.
     """
     if fine.reactions is None or coarse.reactions is None:
         return None
-    one, other = fine.reactions.multipliers, coarse.reactions.multipliers
-    count = min(len(one), len(other))
-    differences = np.abs(other[:count] - one[:count]).T
-    largest = np.abs(one[:count]).max(axis=0, initial=0.0)[:, None]
+    found = fine.reactions.multipliers
+    count = min(len(found), len(coarse.reactions.multipliers), doubts.shape[1])
+    largest = np.abs(found[:count]).max(axis=0, initial=0.0)[:, None]
     rounding = OF_TERMS * largest / np.sqrt(fine.conditioning) if fine.conditioning > 0.0 else np.inf
-    spread = _spread(factor * differences + np.minimum(differences, CLOSE * largest))
-    return _known(np.maximum(spread, rounding)).T
+    return _known(np.maximum(_by_state(problem, fine, count, doubts), rounding)).T
+
+
+def _by_state(problem: Problem, fine: Run, count: int, doubts: Floats) -> Floats:
+    """Σ |∂λ/∂y| times the errors of y = (q, q̇): shape (m, count). Slopes are those of states kept on the constraints.
+
+    They are taken at some of the samples, and hold for those around.
+    """
+    width, stride = 2 * problem.degrees, max(1, count // SLOPES)
+    chosen = np.arange(0, count, stride)
+    times, states = fine.times[chosen], fine.states[chosen]
+    steps = NUDGE * np.maximum(1.0, np.abs(states[:, :width]).max(axis=0))
+    rows = np.tile(states, (width + 1, 1)).reshape(width + 1, *states.shape)
+    rows[np.arange(width) + 1, :, np.arange(width)] += steps[:, None]
+    found, reactions = reactions_at(problem, np.tile(times, width + 1), rows.reshape(-1, states.shape[1]))
+    if len(found) < rows.shape[0] * rows.shape[1]:
+        return np.full((reactions.multipliers.shape[1], count), np.inf)
+    table = reactions.multipliers.reshape(width + 1, len(chosen), -1)
+    slopes = np.abs(table[1:] - table[0]) / steps[:, None, None]
+    slopes = np.maximum(slopes, np.roll(slopes, -1, axis=1)) if len(chosen) > 1 else slopes
+    near = np.minimum(np.arange(count) // stride, len(chosen) - 1)
+    return np.asarray(np.einsum("kts,kt->st", slopes[:, near], doubts[:, :count]))
 
 
 def _together(problem: Problem, coarse: Run, fine: Run) -> tuple[Floats, Floats, Floats]:

@@ -92,3 +92,14 @@ class Stretch:
 
     start: float
     problem: Problem
+
+
+def numbers_of_stretches(times: Floats, stretches: tuple[Stretch, ...]) -> NDArray[np.int64]:
+    """In which stretch each sample lies; of a time that stands twice, the last belongs to the one that begins then.
+
+    `times` and what is returned have shape (samples,).
+    """
+    starts = np.array([each.start for each in stretches])
+    before, behind = (np.searchsorted(starts, times, side=side) - 1 for side in ("left", "right"))
+    follows = np.append(times[1:] == times[:-1], False)
+    return np.asarray(np.maximum(np.where(follows, before, behind), 0))

@@ -25,6 +25,7 @@ from .consistency import consistent
 from .derivatives import power
 from .driver import simulate
 from .event import event_values
+from .friction import friction_along
 from .library import ENSEMBLES, get_method, method_ids
 from .outcome import Outcome
 from .problem import Floats, Problem, Released
@@ -69,7 +70,10 @@ def _simulated(request: Request, choice: Choice, problem: Problem, compile_time:
     states = np.hstack([trajectory.values, trajectory.rates])
     seen = problem.model.observe(problem.inputs(trajectory.times, states))
     watts = power(problem, trajectory.times, states, trajectory.stretches)
-    return answer(request, choice, problem, *_finite(trajectory, seen, watts), compile_time)
+    known, seen = _finite(trajectory, seen, watts)
+    modes, moved = modes_of(request.scene), np.hstack([known.values, known.rates])
+    frictions = friction_along(modes, known.times, moved, known.stretches) if modes else {}
+    return answer(request, choice, problem, known, seen, compile_time, frictions)
 
 
 def require_one_mode(scene: Scene) -> None:

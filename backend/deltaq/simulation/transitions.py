@@ -2,7 +2,8 @@
 
 At an impact the momenta jump along the gradient of the gap, p⁺ − p⁻ = Λ ∂g/∂q, such that the gap opens e times as fast
 as it closed: Λ = −(1 + e) ġ/(∂g/∂q M⁻¹ ∂g/∂qᵀ). Which rows are held behind it follows from their reactions: what sticks
-needs no more than F₀, what rests is pushed. Several contacts at once are taken one after the other.
+needs no more than F₀, what rests is pushed. Several contacts at once are taken one after the other. Constraints answer
+with impulses of their own, A q̇⁺ = A q̇⁻: M⁻¹ is then that part of the inverse of [M Aᵀ; A 0].
 Source: Pfeiffer, Glocker, Multibody Dynamics with Unilateral Contacts, ch. 4–8.
 """
 
@@ -24,6 +25,7 @@ LATE = 1e-6  # s; so much behind the zero of a gap its event is found at most
 ROUNDING = 1e-15
 HARDLY = 1e-13  # of a rate of slipping
 SLACK = 1e-12  # relative, of a friction that holds
+NOTHING = 1e-12  # of what an impulse would do without constraints: they take all of it
 MOST_IMPACTS = 1000  # one after the other at one time
 
 
@@ -104,7 +106,7 @@ class ModeState:
         end = frictions + gaps.size
         return Facts(
             parts[:, :n], parts[:, n], parts[:, n + 1], rest[:frictions], gaps[:, 0], gaps[:, 2],
-            rest[end : end + self.modes.kinks], rest[end + self.modes.kinks :],
+            rest[end : end + self.modes.kinks], rest[end + self.modes.kinks : end + self.modes.kinks + rows],
         )  # fmt: skip
 
     @cached_property
@@ -117,11 +119,31 @@ class ModeState:
         return found + np.tril(found, -1).T
 
     @cached_property
+    def kept(self) -> tuple[Floats, Floats]:
+        """A, shape (m, n), and γ, shape (m,), of the scene's constraints."""
+        n, layout = len(self.q), self.problem.model.layout
+        m, first = len(layout.multipliers), n * (n + 1) // 2 + n + (n + 1 if layout.is_powered else 0)
+        packed = self.problem.model.motion.table(self.row)[0]
+        return packed[first : first + m * n].reshape(m, n), packed[first + m * n : first + m * n + m]
+
+    def moved_by(self, forces: Floats, bends: Floats | None = None) -> Floats:
+        """x of M x = forces + Aᵀλ, A x = bends (0 if not given): what forces, or impulses, do to q̈, or to q̇.
+
+        `forces` and what is returned have shape (n,), `bends` shape (m,).
+        """
+        rows, count = self.kept[0], len(self.kept[0])
+        if not count:
+            return np.asarray(np.linalg.solve(self.mass, forces))
+        matrix = np.block([[self.mass, rows.T], [rows, np.zeros((count, count))]])
+        right = np.concatenate([forces, np.zeros(count) if bends is None else bends])
+        return np.asarray(np.linalg.lstsq(matrix, right, rcond=None)[0][: len(self.q)])
+
+    @cached_property
     def accelerations(self) -> Floats:
         """q̈ in this mode, shape (n,)."""
         n = len(self.q)
         packed = self.problem.model.motion.table(self.row)[0]
-        return np.asarray(np.linalg.solve(self.mass, packed[n * (n + 1) // 2 : n * (n + 1) // 2 + n]))
+        return self.moved_by(packed[n * (n + 1) // 2 : n * (n + 1) // 2 + n], self.kept[1])
 
     @property
     def watched(self) -> Floats:
@@ -139,7 +161,7 @@ class ModeState:
 
     def pushed(self, row: int, change: float) -> ModeState:
         """The state behind an impulse along a row that changes its rate w by so much."""
-        along = np.linalg.solve(self.mass, self.facts.a[row])
+        along = self.moved_by(self.facts.a[row])
         return replace(self, v=self.v + along * (change / (self.facts.a[row] @ along)))
 
 
@@ -241,7 +263,7 @@ def _after_impacts(current: ModeState, first: int) -> ModeState:
 def _require_direction(current: ModeState, contact: int) -> None:
     """Raises NoDirectionError for a contact without a gradient."""
     row = current.facts.a[len(current.modes.frictions) + contact]
-    if not float(row @ np.linalg.solve(current.mass, row)) > 0.0:
+    if not float(row @ current.moved_by(row)) > NOTHING * float(row @ np.linalg.solve(current.mass, row)):
         raise NoDirectionError(contact)
 
 

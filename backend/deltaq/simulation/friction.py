@@ -1,0 +1,40 @@
+"""The force of dry friction along a motion, and the largest that could hold: |R| ≤ F₀ as long as it sticks."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..model.modes import Modes
+from .problem import Floats, Stretch, numbers_of_stretches
+
+
+@dataclass(frozen=True)
+class FrictionForce:
+    """At the samples, `force` is R in the direction of the coordinate, `largest` F₀ ≥ 0: shape (samples,) each."""
+
+    force: Floats
+    largest: Floats
+
+
+def friction_along(
+    modes: Modes, times: Floats, states: Floats, stretches: tuple[Stretch, ...]
+) -> Mapping[str, FrictionForce]:
+    """By load, the friction of each state in the mode of its stretch.
+
+    `times` has shape (samples,), `states` shape (samples, ≥ 2n).
+    """
+    count = len(modes.frictions)
+    if not stretches or not count:
+        return {}
+    number = numbers_of_stretches(times, stretches)
+    found = np.zeros((len(times), 2 * count))
+    for k in np.unique(number):
+        here = number == k
+        problem = stretches[k].problem
+        facts = modes.facts.table(problem.inputs(times[here], states[here]))
+        first = modes.rows * (problem.degrees + 2)
+        found[here] = np.hstack([facts[:, -count:], facts[:, first : first + count]])
+    return {name: FrictionForce(found[:, k], found[:, count + k]) for k, name in enumerate(modes.frictions)}
