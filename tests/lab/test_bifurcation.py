@@ -284,6 +284,9 @@ REFUSED = [
     pytest.param(
         {"scene": "damped-pendulum", "sweep": swept("c", 1, 2)}, "bifurcation-no-passages", "/plane", id="comes to rest"
     ),
+    pytest.param(
+        {"scene": "pendulum", "sweep": swept("l", 1, 2)}, "bifurcation-conservative", "/scene", id="free pendulum"
+    ),
     pytest.param({"scene": KINKED, "sweep": swept("F", 1, 2)}, "bifurcation-kinks", "/scene", id="kinks"),
     pytest.param({"scene": PULSED, "sweep": swept("F", 1, 2)}, "bifurcation-no-period", "/period", id="no period"),
     pytest.param(

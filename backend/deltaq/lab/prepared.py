@@ -39,6 +39,7 @@ PROBED = 0.25  # of the longest time: what a motion without a drive is followed 
 FEWEST = 4  # passages that tell how long one takes
 STILL, KEPT = 1e-9, 1e-9  # of the scales: a motion that rests; of its energy: one that loses nothing
 TURNS = 1e-9  # by how much accelerations may change in a turn, over their size
+SHORTENINGS = 6  # by a factor of 16 each, of the longest step without a drive
 MOST_LOOKED_AT = 60  # states
 LEAST = 1e-3  # of a scale, beside the size of what it measures
 
@@ -69,6 +70,7 @@ def prepared(request: BifurcationRequest) -> Prepared:
     own = problem.state[: 2 * problem.degrees].copy()
     unit = float(min(map(drive, values))) if drive else request.t_end / TRIED
     rough = Flow(problem, place, PART * unit, np.zeros(1, dtype=np.int64), np.full(len(own) + 1, NUDGE))
+    rough = rough if drive else _begun(rough, values, own)
     path = _path(rough, values, own, unit)
     scales = np.append(_scales(problem, path), float(np.ptp(values)))
     plane = _plane(request, subject, is_driven=drive is not None)
@@ -138,6 +140,16 @@ def _plane(request: BifurcationRequest, subject: Subject, *, is_driven: bool) ->
     if not given and is_driven:
         return None
     return parsed(given or f"dot({subject.scene.free[0].name})", subject.scene, "/plane")
+
+
+def _begun(flow: Flow, values: Floats, own: Floats) -> Flow:
+    """The flow with steps that are short enough to begin with: the series of longer ones exceed all numbers."""
+    middle = values[len(values) // 2 : len(values) // 2 + 1]
+    for _ in range(SHORTENINGS):
+        if flow.traced(middle, own[None, :], np.array([0.0, flow.largest])).is_fine:
+            break
+        flow = replace(flow, largest=flow.largest / 16.0)
+    return flow
 
 
 def _path(flow: Flow, values: Floats, own: Floats, unit: float) -> Floats:
@@ -224,9 +236,11 @@ def _spacing(view: View, values: Floats, own: Floats, longest: float) -> Callabl
     both = np.column_stack([np.vstack([own, end]), np.zeros(2)])
     energies = view.energies(middle, both)
     moved = float(np.abs(end - own).max())
+    rests = bool(len(rows)) and float(np.abs(np.ptp(rows[len(rows) // 2 :, :-1], axis=0)).max()) < STILL * moved
+    rests = rests and float(np.abs(end - rows[-1, :-1]).max()) < STILL * moved
     if len(rows) >= FEWEST and abs(energies[1] - energies[0]) <= KEPT * max(1.0, float(np.abs(energies).max())):
         raise RequestError(Mistake("bifurcation-conservative", "/scene"))
-    if len(rows) < FEWEST or moved == 0.0:
+    if len(rows) < FEWEST or moved == 0.0 or rests:
         text = view.plane.text[:80] if view.plane else ""
         told: dict[str, str | float] = {"plane": text, "t": float(f"{PROBED * longest:.3g}")}
         raise RequestError(Mistake("bifurcation-no-passages", "/plane", parameters=told))
