@@ -12,7 +12,7 @@ from deltaq.lab.ladder.centre import centre_of
 from deltaq.lab.ladder.distance import Yardstick
 from deltaq.lab.ladder.findings import Part
 from deltaq.lab.ladder.mean import Mean
-from deltaq.lab.ladder.measurement import deviation, full_run, run_rung, yardstick
+from deltaq.lab.ladder.measurement import deviation, full_run, run_rung, seen, yardstick
 from deltaq.lab.ladder.simplification import SimplificationContext
 from deltaq.mechanics.document import read_scene
 from deltaq.mechanics.library import load_scene, scene_ids
@@ -30,8 +30,9 @@ def motion(scene: Scene) -> Yardstick:
 
 
 def context(scene: Scene) -> SimplificationContext:
-    centre = centre_of(scene, motion(scene))
-    return SimplificationContext(scene, centre.values if centre else {}, Mean.of(scene, SPAN))
+    run = full_run(scene, SPAN, np.zeros(1, dtype=np.int64))
+    centre = centre_of(scene, yardstick(run))
+    return SimplificationContext(scene, centre.values if centre else {}, Mean.of(scene, SPAN), seen(run))
 
 
 def has_rest(found: SimplificationContext) -> bool:
