@@ -13,6 +13,7 @@ from collections.abc import Iterator
 from contextlib import redirect_stderr, redirect_stdout
 from io import StringIO
 from pathlib import Path
+from typing import Any
 from unittest.mock import patch
 
 import httpx
@@ -22,7 +23,9 @@ from deltaq import __version__
 from deltaq.api.workers.kernels import mark_as_compiled
 from deltaq.bench import benchmark_names, run_benchmarks
 from deltaq.cli import main
+from deltaq.commands._common import compilation_told
 from deltaq.contract.simulation import SimulationAnswer
+from deltaq.simulation.kernels.compiler import kernel
 
 COMMAND = [sys.executable, "-m", "deltaq.cli"]
 
@@ -56,6 +59,20 @@ def test_kernels_that_are_there_are_not_compiled_again(
     mark_as_compiled()
     assert main(["compile"]) == 0
     assert capsys.readouterr().out == "all kernels are there\n"
+
+
+def test_what_is_compiled_on_the_way_is_told(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
+    """On a new machine nobody knows why there is no answer for half a minute."""
+    place = tmp_path / "halved.py"
+    place.write_text("def halved(x: float) -> float:\n    return 0.5 * x\n", encoding="utf-8")
+    namespace: dict[str, Any] = {}
+    exec(compile(place.read_text(encoding="utf-8"), str(place), "exec"), namespace)
+    compiled = kernel(namespace["halved"])
+    with compilation_told():
+        assert compiled(3.0) == 1.5
+        assert compiled(5.0) == 2.5
+    assert compiled(2) == 1.0
+    assert capsys.readouterr().err == "deltaq: compiling halved for this machine, once\n"
 
 
 @pytest.mark.parametrize("arguments", [["scenes"], ["derive", "pendulum"]], ids=["a short text", "a long text"])

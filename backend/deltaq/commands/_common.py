@@ -3,8 +3,13 @@
 from __future__ import annotations
 
 import argparse
+import csv
+import io
 import json
+import logging
 import sys
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
@@ -40,13 +45,19 @@ def output_argument(parser: argparse.ArgumentParser) -> None:
 
 
 def _field(text: str) -> tuple[str, Any]:
-    name, sign, value = text.partition("=")
-    if not sign:
-        raise argparse.ArgumentTypeError(f"FIELD=VALUE is needed, not {text}")
+    name, value = named(text, "FIELD=VALUE")
     try:
         return name, json.loads(value)
     except json.JSONDecodeError:
         return name, value  # a word without its quotes
+
+
+def named(text: str, form: str) -> tuple[str, str]:
+    """A name and what stands behind its sign of equality; `form` is how that is written."""
+    name, sign, value = text.partition("=")
+    if not sign:
+        raise argparse.ArgumentTypeError(f"{form} is needed, not {text}")
+    return name, value
 
 
 def question_of(options: argparse.Namespace) -> dict[str, Any]:
@@ -64,6 +75,30 @@ def scene_of(given: str) -> object:
         return read_toml(Path(given).read_text(encoding="utf-8-sig"))
     except UnicodeDecodeError:
         raise CommandError(f"{given} is not in UTF-8; have your editor save it so") from None
+
+
+@contextmanager
+def compilation_told() -> Iterator[None]:
+    """What is compiled meanwhile is told on the error stream: on a new machine that takes half a minute."""
+    logger, screen = logging.getLogger("deltaq.simulation"), logging.StreamHandler()
+    screen.setFormatter(logging.Formatter("deltaq: %(message)s"))
+    level = logger.level
+    logger.addHandler(screen)
+    logger.setLevel(logging.INFO)
+    try:
+        yield
+    finally:
+        logger.setLevel(level)
+        logger.removeHandler(screen)
+
+
+def table(columns: Mapping[str, Sequence[object]]) -> str:
+    """CSV of columns of one length, by their names."""
+    out = io.StringIO()
+    writer = csv.writer(out, lineterminator="\n")
+    writer.writerow(columns)
+    writer.writerows(zip(*columns.values(), strict=True))
+    return out.getvalue()
 
 
 def write(text: str, output: Path | None) -> None:

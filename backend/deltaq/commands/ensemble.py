@@ -3,13 +3,21 @@
 from __future__ import annotations
 
 import argparse
-import csv
-import io
 import json
 import sys
 from typing import Any
 
-from ._common import field_argument, language_argument, output_argument, question_of, scene_argument, write
+from ._common import (
+    compilation_told,
+    field_argument,
+    language_argument,
+    named,
+    output_argument,
+    question_of,
+    scene_argument,
+    table,
+    write,
+)
 
 HELP = "simulate a scene with many initial values or parameters"
 DESCRIPTION = """Simulates a scene once for each of many values: a table with a row for each run as CSV (what varies,
@@ -47,7 +55,8 @@ def run(options: argparse.Namespace) -> None:
     from ..simulation.ensemble_answer import run as simulate
 
     question = {"t_end": options.t_end, "vary": dict(options.vary), **question_of(options)}
-    found: dict[str, Any] = simulate(question, lambda done: print(f"deltaq: {done} runs done", file=sys.stderr))
+    with compilation_told():
+        found: dict[str, Any] = simulate(question, lambda done: print(f"deltaq: {done} runs done", file=sys.stderr))
     answer = found | outcomes_explained(found.pop("outcomes"), options.lang)
     write(json.dumps(answer, ensure_ascii=False) if options.format == "json" else _table(answer), options.output)
     for status, reason in answer["reasons"].items():
@@ -55,9 +64,7 @@ def run(options: argparse.Namespace) -> None:
 
 
 def _variation(text: str) -> tuple[str, Any]:
-    name, sign, value = text.partition("=")
-    if not sign:
-        raise argparse.ArgumentTypeError(f"QUANTITY=VALUES is needed, not {text}")
+    name, value = named(text, "QUANTITY=VALUES")
     try:
         return name, json.loads(value)
     except json.JSONDecodeError:
@@ -67,8 +74,4 @@ def _variation(text: str) -> tuple[str, Any]:
 def _table(answer: dict[str, Any]) -> str:
     ends = {name: [column[-1] if column else "" for column in runs] for name, runs in answer["coordinates"].items()}
     columns = {**answer["quantities"], "status": answer["status"], "error": answer["error"], **ends}
-    out = io.StringIO()
-    writer = csv.writer(out, lineterminator="\n")
-    writer.writerow(columns)
-    writer.writerows(zip(*columns.values(), strict=True))
-    return out.getvalue()
+    return table(columns)

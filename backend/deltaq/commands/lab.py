@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 from ..errors import CommandError
 from ..lab.library import experiment_ids, get_experiment
-from ._common import field_argument, language_argument, question_of, scene_argument
+from ._common import compilation_told, field_argument, language_argument, question_of, scene_argument
 
 if TYPE_CHECKING:
     from ..lab.report import Report
@@ -53,8 +53,9 @@ def run(options: argparse.Namespace) -> None:
             )
     experiment = get_experiment(options.experiment)
     question, result = question_of(options), dict[str, Any]()
-    for report in _with_progress(experiment.run(question)):
-        result = report.result
+    with compilation_told():
+        for report in _with_progress(experiment.run(question)):
+            result = report.result
     charts = drawn(experiment, result, text, options.lang)
     outputs = options.output or [Path(f"{experiment.id}-{result['scene']}{suffix}") for suffix in (".json", ".html")]
     for output in outputs:

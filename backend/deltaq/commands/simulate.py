@@ -3,14 +3,21 @@
 from __future__ import annotations
 
 import argparse
-import csv
-import io
 import json
 import sys
 from typing import Any
 
 from ..errors import CommandError
-from ._common import field_argument, language_argument, output_argument, question_of, scene_argument, write
+from ._common import (
+    compilation_told,
+    field_argument,
+    language_argument,
+    output_argument,
+    question_of,
+    scene_argument,
+    table,
+    write,
+)
 
 HELP = "simulate a scene"
 DESCRIPTION = """Simulates a scene to a tolerance: a table of time, coordinates, rates and estimated error as CSV, or
@@ -39,7 +46,8 @@ def run(options: argparse.Namespace) -> None:
     from ..simulation.service import run as simulate
 
     question = {"t_end": options.t_end, "samples": options.samples, **question_of(options)}
-    found: dict[str, Any] = simulate(question)
+    with compilation_told():
+        found: dict[str, Any] = simulate(question)
     answer = found | explained(found, options.lang)
     write(json.dumps(answer, ensure_ascii=False) if options.format == "json" else _table(answer), options.output)
     if answer["status"] != "ok":
@@ -51,8 +59,4 @@ def _table(answer: dict[str, Any]) -> str:
     columns = {"t": answer["t"], **answer["coordinates"]}
     columns |= {f"dot({name})": rates for name, rates in answer["rates"].items()}
     columns |= {"error": answer["error"]["estimate"]}
-    out = io.StringIO()
-    writer = csv.writer(out, lineterminator="\n")
-    writer.writerow(columns)
-    writer.writerows(zip(*columns.values(), strict=True))
-    return out.getvalue()
+    return table(columns)

@@ -37,7 +37,7 @@ def kernel(function: F) -> F:
     of the time, since each array passed on would cost two atomic operations. The cache is beside the source, or in
     the user's cache directory where that is not writable.
     """
-    compiled: Any = njit(cache=True, forceinline=False, **OPTIONS)(function)
+    compiled: Any = njit(cache=True, forceinline=False, pipeline_class=KernelCompiler, **OPTIONS)(function)
     _kept(compiled._cache, function)  # noqa: SLF001 - Numba offers no other way
     return cast("F", compiled)
 
@@ -94,6 +94,15 @@ def _kept(cache: Any, function: Callable[..., object]) -> Any:
     cache._cache_file = OwnFiles(cache.cache_path, base, stamp)  # noqa: SLF001
     cache._guard_against_spurious_io_errors = _without_cache_errors  # noqa: SLF001
     return cache
+
+
+class KernelCompiler(Compiler):
+    """Numba's compiler, which is heard: it takes seconds."""
+
+    def compile_extra(self, function: Callable[..., object]) -> Any:
+        """Numba's result of compiling the function; raises what Numba raises."""
+        LOGGER.info("compiling %s for this machine, once", function.__name__)
+        return super().compile_extra(function)  # type: ignore[no-untyped-call]
 
 
 class PartLibrary(JITCodeLibrary):
