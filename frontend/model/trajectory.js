@@ -46,6 +46,10 @@ export function snapshotAt(trajectory, t) {
 export const multipliersAt = ({ t: times, multipliers }, t) =>
   mapped(multipliers ?? {}, (values) => scalarAt(values, blendAt(times, t)));
 
+/** The forces of dry friction at time t, by load. @param {Trajectory} trajectory @param {number} t @returns {Record<string, number>} */
+export const frictionsAt = ({ t: times, friction }, t) =>
+  mapped(friction ?? {}, ({ force }) => scalarAt(force, blendAt(times, t)));
+
 /** The last time with a sample. @param {Trajectory | null} trajectory */
 export function endOf(trajectory) {
   return trajectory?.t.at(-1) ?? 0;

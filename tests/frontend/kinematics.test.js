@@ -5,7 +5,7 @@ import { configured, kinematicsOf } from "../../frontend/model/kinematics/kinema
 import { reached } from "../../frontend/model/kinematics/reach.js";
 import { snapshotAt } from "../../frontend/model/trajectory.js";
 import { readChoice, writeChoice } from "../../frontend/model/virtual/choice.js";
-import { reactionOf } from "../../frontend/model/figure/reactions.js";
+import { frictionOf, reactionOf } from "../../frontend/model/figure/reactions.js";
 import { vectorFigure, vectorSymbols } from "../../frontend/model/figure/vectors.js";
 import { virtualFigure } from "../../frontend/model/virtual/figure.js";
 import { virtualOf } from "../../frontend/model/virtual/virtual.js";
@@ -111,7 +111,7 @@ test("r leads from the origin to its body, v along its motion, with the symbols 
   const symbols = vectorSymbols([{ steps: [step] }]);
   const at = (/** @type {number} */ t) => ({ ...snapshotAt(trajectory, t), rates: { y: 0, phi: 0.25 } });
   const arrows = /** @type {const} */ ([{ of: "bob", vector: "r" }, { of: "bob", vector: "v" }, { of: "none", vector: "v" }]);
-  const { shapes, labels } = vectorFigure(stage, now, arrows, { kinematics, symbols, at, multipliers: () => ({}), end: 4 });
+  const { shapes, labels } = vectorFigure(stage, now, arrows, { kinematics, symbols, at, multipliers: () => ({}), frictions: () => ({}), end: 4 });
   assert.deepEqual(labels.map(({ latex }) => latex), ["\\mathbf{r}_{\\text{el}}", "\\mathbf{v}"]);
   const ends = shapes.map(({ d }) => [d.slice(1).split("L")[0], d.slice(d.lastIndexOf("M") + 1).split("L")[0]].map((pair) => pair.split(" ").map(Number)));
   const [[origin, tip], [from, to]] = ends;
@@ -150,4 +150,16 @@ test("a rod pulls at both ends that can move, and a constraint acts at the place
   assert.deepEqual([edge.place, edge.plain], ["tip", false]);
   assert.ok(near(edge.force, [-12 * Math.sin(0.5), 12 * Math.cos(0.5)]));
   assert.deepEqual([of("both"), of("none")], [[], []]);
+});
+
+test("friction acts at the place that its coordinate alone moves, along that way", () => {
+  const slide = /** @type {any} */ ({ dimension: 2, coordinates: [{ name: "s", unit: "m" }, { name: "phi", unit: "rad" }], parameters: [], bodies: [{ name: "block" }], points: [], loads: [{ name: "dry", kind: "friction", coordinate: "s" }, { name: "pivot", kind: "friction", coordinate: "phi" }] });
+  const positions = { block: { plain: ["0.8*s", "0.6*s"] }, bob: { plain: ["0.8*s + 2*sin(phi)", "0.6*s - 2*cos(phi)"] } };
+  const moving = kinematicsOf(slide, /** @type {any} */ ({ points: {}, positions }), {});
+  const here = /** @type {any} */ ({ t: 0, coordinates: { s: 1, phi: 0.3 }, rates: {}, positions: {} });
+  const [found, ...others] = frictionOf(slide, moving, here, { dry: -5, pivot: 2 }, "dry");
+  assert.deepEqual([found.place, found.plain, others], ["block", true, []]);
+  assert.ok(near(found.force, [-4, -3]));
+  assert.deepEqual(frictionOf(slide, moving, here, { dry: -5, pivot: 2 }, "pivot"), [], "a moment is no force at one place");
+  assert.deepEqual(frictionOf(slide, moving, here, {}, "dry"), []);
 });

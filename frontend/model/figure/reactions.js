@@ -1,5 +1,5 @@
 /**
- * Reactions of constraints as arrows: a rod pulls both of its ends together by its multiplier; of any other constraint
+ * Reactions of constraints and dry friction as arrows: a rod pulls both of its ends together by its multiplier; of any other constraint
  * the force F(P) at the one place P that does the same work, Qᵢ = F · ∂r(P)/∂qᵢ for every coordinate, where there is one.
  */
 
@@ -10,12 +10,15 @@
 
 /** Part of the generalized forces that a force at one place may leave over. */
 const LEFT = 1e-4;
+/** ε of least squares, as a part of the largest entry. */
+const SMALL = 1e-7;
 
 /** @param {readonly number[]} a @param {readonly number[]} b */
 const dot = (a, b) => a.reduce((sum, x, i) => sum + x * b[i], 0);
 
 /**
- * The F of least squares with J F = Q, by elimination with pivots on JᵀJ F = JᵀQ; components that do no work are 0.
+ * The smallest F of least squares with J F = Q, by elimination with pivots on (JᵀJ + ε) F = JᵀQ: across the only way that
+ * a place can go it has no component. ε is small beside JᵀJ and large beside the errors of its difference quotients.
  * @param {readonly number[][]} rows  J: a row for each coordinate @param {readonly number[]} given  Q
  */
 function leastSquares(rows, given) {
@@ -23,12 +26,13 @@ function leastSquares(rows, given) {
   const columns = Array.from({ length: size }, (_, c) => rows.map((row) => row[c]));
   const system = columns.map((column) => [...columns.map((other) => dot(column, other)), dot(column, given)]);
   const scale = Math.max(...system.map((row, i) => row[i]), 0);
+  system.forEach((row, i) => (row[i] += SMALL * scale));
   /** @type {number[]} */
   const pivots = [];
   for (let c = 0; c < size; c += 1) {
     const free = system.map((_, i) => i).filter((i) => !pivots.includes(i));
     const pivot = free.reduce((best, i) => (Math.abs(system[i][c]) > Math.abs(system[best][c]) ? i : best), free[0]);
-    if (!(Math.abs(system[pivot][c]) > 1e-10 * scale)) return columns.map(() => NaN);
+    if (!(Math.abs(system[pivot][c]) > 0)) return columns.map(() => NaN);
     pivots.push(pivot);
     system.forEach((row, i) => {
       if (i === pivot) return;
@@ -46,17 +50,19 @@ function slopesOf(kinematics, { coordinates: q, t }, coordinates) {
   return Object.fromEntries(places.map((place) => [place, along.map((slope) => slope[place])]));
 }
 
-/** @param {Record<string, number[][]>} slopes @param {readonly number[]} given  Qᵢ @param {number} multiplier @returns {Reaction[]} */
+/**
+ * The force at each place that alone does the work of the generalized forces.
+ * @param {Record<string, number[][]>} slopes @param {readonly number[]} given  Qᵢ @param {number} multiplier @returns {Reaction[]}
+ */
 function alone(slopes, given, multiplier) {
   const size = Math.hypot(...given);
   if (!(size > 0)) return [];
-  for (const [place, rows] of Object.entries(slopes)) {
+  return Object.entries(slopes).flatMap(([place, rows]) => {
     const force = leastSquares(rows, given);
     const left = Math.hypot(...rows.map((row, i) => dot(row, force) - given[i]));
     const plain = Math.abs(Math.hypot(...force) - Math.abs(multiplier)) < 1e-3 * Math.abs(multiplier);
-    if (left < LEFT * size) return [{ place, force, plain }];
-  }
-  return [];
+    return left < LEFT * size ? [{ place, force, plain }] : [];
+  });
 }
 
 /** A rod pulls at those of its ends that can move. @param {Record<string, number[][]>} slopes @param {Snapshot} now @param {[string, string]} ends @param {number} pull @returns {Reaction[]} */
@@ -68,6 +74,22 @@ function pulled(slopes, { positions }, [from, to], pull) {
     { place: to, force: span.map((x) => (-pull * x) / length), plain: true },
     { place: from, force: span.map((x) => (pull * x) / length), plain: true },
   ].filter(({ place }) => slopes[place]?.some((row) => Math.hypot(...row) > 0));
+}
+
+/**
+ * Where dry friction acts, which does the work R δq of its coordinate alone, and with which force in newtons; empty where
+ * it is a moment, or where no place moves as far as its coordinate.
+ * @param {Scene} scene @param {Kinematics} kinematics @param {Snapshot} now @param {Record<string, number>} frictions  R by load @param {string} name
+ * @returns {Reaction[]}
+ */
+export function frictionOf(scene, kinematics, now, frictions, name) {
+  const load = scene.loads.find((candidate) => candidate.name === name);
+  const given = kinematics.free.map((coordinate) => (coordinate === load?.coordinate ? (frictions[name] ?? 0) : 0));
+  const isMoment = scene.coordinates.find((one) => one.name === load?.coordinate)?.unit === "rad";
+  if (isMoment) return [];
+  return alone(slopesOf(kinematics, now, kinematics.free), given, frictions[name] ?? 0)
+    .filter(({ plain }) => plain)
+    .slice(0, 1);
 }
 
 /**
@@ -86,5 +108,5 @@ export function reactionOf(scene, kinematics, now, multipliers, name) {
     slopes,
     kinematics.free.map((coordinate) => found.forces[coordinate] ?? 0),
     found.multiplier,
-  );
+  ).slice(0, 1);
 }

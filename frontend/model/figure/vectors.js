@@ -1,11 +1,11 @@
 /**
  * Positions and velocities of bodies as arrows, with the symbols that they have in the formulas: r from the origin, v where
- * the body is; and reactions of constraints where they act.
+ * the body is; and reactions of constraints and dry friction where they act.
  */
 
 import { add, lengthOf, normal, scaled, subtract, unit } from "../drawing/geometry.js";
 import { solidArrow } from "../drawing/marks.js";
-import { reactionOf } from "./reactions.js";
+import { frictionOf, reactionOf } from "./reactions.js";
 
 /** @typedef {import("../types.js").Figure} Figure */
 /** @typedef {import("../types.js").Pixel} Pixel */
@@ -13,9 +13,9 @@ import { reactionOf } from "./reactions.js";
 /** @typedef {import("../types.js").Trajectory} Trajectory */
 /** @typedef {import("../drawing/stage.js").Stage} Stage */
 /** @typedef {import("../kinematics/kinematics.js").Kinematics} Kinematics */
-/** @typedef {"r" | "v" | "z"} Vector  z: a reaction */
-/** @typedef {{of: string, vector: Vector}} Arrow  of: a body, or a constraint */
-/** @typedef {{kinematics: Kinematics, symbols: Map<string, string>, at: (t: number) => Snapshot, multipliers: (t: number) => Record<string, number>, end: number}} Motion  at: the motion, which ends at `end` */
+/** @typedef {"r" | "v" | "z" | "f"} Vector  z: a reaction, f: dry friction */
+/** @typedef {{of: string, vector: Vector}} Arrow  of: a body, a constraint, or a load */
+/** @typedef {{kinematics: Kinematics, symbols: Map<string, string>, at: (t: number) => Snapshot, multipliers: (t: number) => Record<string, number>, frictions: (t: number) => Record<string, number>, end: number}} Motion  at: the motion, which ends at `end` */
 
 const SYMBOL =
   /\\htmlClass\{body-([\w-]+)(?: vector-[rv])?\}\{(\\mathbf\{([rv])\}(?:_(?:\{(?:[^{}]|\{[^{}]*\})*\}|\w))?)\}/g;
@@ -73,7 +73,7 @@ export function vectorFigure(stage, now, arrows, motion) {
   const velocities = velocitiesOf(kinematics, now);
   const origin = stage.project(Array.from({ length: stage.scene.dimension }, () => 0));
   const figures = arrows.flatMap((arrow) => {
-    if (arrow.vector === "z") return reactionFigures(stage, now, arrow, motion);
+    if (arrow.vector === "z" || arrow.vector === "f") return forceFigures(stage, now, arrow, motion);
     const place = now.positions[arrow.of];
     if (!place?.every(Number.isFinite)) return [];
     const there = stage.project(place);
@@ -87,12 +87,12 @@ export function vectorFigure(stage, now, arrows, motion) {
   return { shapes: figures.flatMap(({ shapes }) => shapes), labels: figures.flatMap(({ labels }) => labels) };
 }
 
-/** The reaction of a constraint at each place where it acts; all have one scale along the motion. @param {Stage} stage @param {Snapshot} now @param {Arrow} arrow @param {Motion} motion @returns {Figure[]} */
-function reactionFigures(stage, now, arrow, motion) {
-  const { kinematics, symbols, multipliers } = motion;
-  const at = (/** @type {Snapshot} */ moment) =>
-    reactionOf(stage.scene, kinematics, moment, multipliers(moment.t), arrow.of);
-  const largest = stage.once(`reaction ${arrow.of}`, () =>
+/** The reaction of a constraint, or friction, at each place where it acts; all have one scale along the motion. @param {Stage} stage @param {Snapshot} now @param {Arrow} arrow @param {Motion} motion @returns {Figure[]} */
+function forceFigures(stage, now, arrow, motion) {
+  const { kinematics, symbols, multipliers, frictions } = motion;
+  const [forcesOf, sizes] = arrow.vector === "f" ? [frictionOf, frictions] : [reactionOf, multipliers];
+  const at = (/** @type {Snapshot} */ moment) => forcesOf(stage.scene, kinematics, moment, sizes(moment.t), arrow.of);
+  const largest = stage.once(`force ${keyOf(arrow)}`, () =>
     Math.max(1e-12, ...looks(motion).flatMap((moment) => at(moment).map(({ force }) => Math.hypot(...force)))),
   );
   return at(now).map(({ place, force, plain }, i) => {
@@ -101,13 +101,25 @@ function reactionFigures(stage, now, arrow, motion) {
       along: scaled(stage.direct(force), speedScale(stage, largest)),
     };
     const symbol = plain ? symbols.get(keyOf(arrow)) : undefined;
-    const { shapes, labels } = labelled(stage, arrow, given, symbol ?? "\\mathbf{F}^{z}", `-${place}`);
+    const { shapes, labels } = labelled(
+      stage,
+      arrow,
+      given,
+      symbol ?? (arrow.vector === "f" ? "\\mathbf{R}" : "\\mathbf{F}^{z}"),
+      `-${place}`,
+    );
     return { shapes, labels: i ? [] : labels };
   });
 }
 
 /** From metres a second or newtons, which `direct` has made pixels, to arrows of the drawing. @param {Stage} stage @param {number} largest */
 const speedScale = (stage, largest) => (LONGEST * stage.unit) / (largest * stage.scale);
+
+/** Of the colour of its curve, behind coordinates and constraints. @param {import("../types.js").Scene} scene @param {string} name */
+function frictionClass({ coordinates, constraints, loads }, name) {
+  const place = loads.filter(({ kind }) => kind === "friction").findIndex((one) => one.name === name);
+  return `q-${coordinates.length + (constraints ?? []).length + place} friction-${name}`;
+}
 
 /** Of the colour of its multiplier. @param {import("../types.js").Scene} scene @param {string} name */
 const reactionClass = ({ coordinates, constraints }, name) =>
@@ -118,7 +130,9 @@ function labelled({ unit: u, scene }, { of, vector }, { from, along }, latex, wh
   const long = lengthOf(along);
   if (!(long > SHORTEST * u)) return { shapes: [], labels: [] };
   const key = `vector-${vector}-${of}${which}`;
-  const className = `vector vector-${vector} ${vector === "z" ? reactionClass(scene, of) : `body-${of}`}`;
+  const isForce = vector === "z" || vector === "f";
+  const whose = vector === "z" ? reactionClass(scene, of) : vector === "f" ? frictionClass(scene, of) : `body-${of}`;
+  const className = `vector vector-${vector} ${whose}`;
   const aside = normal(unit(along));
   const on = (/** @type {number} */ part, /** @type {number} */ out) =>
     add(add(from, scaled(along, part)), scaled(aside, out * u));
@@ -126,9 +140,7 @@ function labelled({ unit: u, scene }, { of, vector }, { from, along }, latex, wh
   const [first, ...others] =
     vector === "r"
       ? [0.6, 0.4, 0.75, 0.25].flatMap((part) => [on(part, 1.2), on(part, -1.2)])
-      : [on(1 + (1.2 * u) / long, 0), on(0.8, 1.3), on(0.8, -1.3), on(0.4, 1.3), on(0.4, -1.3)].slice(
-          vector === "z" ? 1 : 0,
-        );
+      : [on(1 + (1.2 * u) / long, 0), on(0.8, 1.3), on(0.8, -1.3), on(0.4, 1.3), on(0.4, -1.3)].slice(isForce ? 1 : 0);
   return {
     shapes: solidArrow(from, along, key, className, Math.min(u, 0.5 * long)),
     labels: [{ key, latex, at: first, others, className }],

@@ -1,8 +1,8 @@
-/** Arrows r and v of bodies and reactions of constraints: of those whose symbols are pointed at, and of all while their tool is on. */
+/** Arrows r and v of bodies, reactions of constraints and dry friction: of those whose symbols are pointed at, and of all while their tool is on. */
 
 import { placed } from "../../model/drawing/placing.js";
 import { vectorFigure, vectorSymbols } from "../../model/figure/vectors.js";
-import { endOf, multipliersAt, snapshotAt } from "../../model/trajectory.js";
+import { endOf, frictionsAt, multipliersAt, snapshotAt } from "../../model/trajectory.js";
 
 /** @typedef {import("../../model/figure/vectors.js").Arrow} Arrow */
 
@@ -28,6 +28,9 @@ export function createVectors(bench, { draw }) {
       return [
         ...scene.bodies.flatMap(({ name: of }) => VECTORS.map((vector) => ({ of, vector }))),
         ...(scene.constraints ?? []).map(({ name }) => ({ of: name ?? "", vector: /** @type {const} */ ("z") })),
+        ...scene.loads
+          .filter(({ kind }) => kind === "friction")
+          .map(({ name }) => ({ of: name, vector: /** @type {const} */ ("f") })),
       ];
     const { vectors } = root.dataset;
     return vectors && vectors !== "[]" ? pointedAt(vectors) : [];
@@ -45,7 +48,8 @@ export function createVectors(bench, { draw }) {
     if (!arrows.length || !moving || !moment || !stage || !trajectory) return clear();
     const at = (/** @type {number} */ t) => snapshotAt(trajectory, t);
     const multipliers = (/** @type {number} */ t) => multipliersAt(trajectory, t);
-    const motion = { kinematics: moving, symbols: symbols(), at, multipliers, end: endOf(trajectory) };
+    const frictions = (/** @type {number} */ t) => frictionsAt(trajectory, t);
+    const motion = { kinematics: moving, symbols: symbols(), at, multipliers, frictions, end: endOf(trajectory) };
     draw(placed(stage, vectorFigure(stage, moment, arrows, motion), clock.time, ground), stage.size);
     drawn = true;
   }
