@@ -11,17 +11,18 @@ import { belongings, multipliersOf, ofConstraint } from "./belongings.js";
 
 /** @typedef {import("./belongings.js").Named} Named */
 
-const POWER = String.raw`(?:\^(?:\{[^{}]*\}|\d))?`;
-const INDEX = String.raw`(?:_(?:\{[^{}]*\}|[a-zA-Z0-9]))?`;
+const RAISED = String.raw`\^(?:\{[^{}]*\}|\d)`;
+const POWER = `(?:${RAISED})?`;
 const GROUP = String.raw`\{(?:[^{}]|\{(?:[^{}]|\{[^{}]*\})*\})*\}`;
+const INDEX = String.raw`(?:_(?:${GROUP}|[a-zA-Z0-9]))?`;
 /** What stands as it is: coordinates that are marked, classes, words, upright and bold letters, layout; and commands and letters that are no name. */
 const OTHER = [
   String.raw`\\htmlClass\{q-\d[^}]*\}${GROUP}`,
   String.raw`\\htmlClass\{[^}]*\}`,
   String.raw`\\(?:text|math[a-z]+|begin|end|operatorname)\{[^}]*\}(?:\[l\])?`,
   String.raw`\\\\(?:\[[^\]]*\])?`,
-  String.raw`\\[a-zA-Z]+${INDEX}${POWER}`,
-  String.raw`[a-zA-Z]${INDEX}${POWER}`,
+  String.raw`\\[a-zA-Z]+${INDEX}${POWER}${INDEX}`,
+  String.raw`[a-zA-Z]${INDEX}${POWER}${INDEX}`,
 ].join("|");
 /** What takes the next letter by itself takes no class about it. */
 const BARE = String.raw`(?<![_^]|\\(?:d?dot|sqrt|bar|hat|vec|[td]?frac|math[a-z]+)\s*)`;
@@ -69,20 +70,20 @@ function namesIn(scene, result) {
 
 /**
  * What marks the names of a scene in a formula, and what belongs to the whole system; a power stays with its base, over
- * the index of which it stands.
+ * the index of which it stands. With an index behind a power it is another symbol: R is not in R^{h}_{1}.
  * @param {Named} scene @param {import("./belongings.js").Results | null} [result] @returns {(latex: string) => string}
  */
 export function markerOf(scene, result) {
   const { ofSystem, ofCoordinate } = belongings(scene, result);
   const names = namesIn(scene, result);
   const longest = [...names.keys()].sort((a, b) => b.length - a.length).map(whole);
-  const pattern = new RegExp(`${BARE}(${longest.join("|") || "(?!)"})(?!_)${POWER}|${OTHER}`, "g");
+  const pattern = new RegExp(`${BARE}(${longest.join("|") || "(?!)"})(?!_|${RAISED}_)${POWER}|${OTHER}`, "g");
   const bare = new RegExp(`${BARE}$`);
   const indices = (scene.coordinates ?? []).map(({ name, latex }) => latex || name);
   const generalized = ofCoordinates(indices);
   /** @param {string} symbol @param {string} before */
   function ofWhole(symbol, before) {
-    const base = symbol.replace(/\^.*$/, "");
+    const base = symbol.replace(new RegExp(RAISED), "");
     const classes = !names.has(base) && bare.test(before) ? ofSystem(base) : "";
     return classes ? `\\htmlClass{${classes}}{${symbol}}` : symbol;
   }

@@ -327,7 +327,7 @@ test("the arc about a disc ends at the mark that turns with it", () => {
 
 test("parameters are marked in formulas where they stand alone, and nothing that only looks like them", () => {
   const mark = markerOf({ parameters: /** @type {any} */ ([{ name: "m", latex: "" }, { name: "l", latex: "\\ell" }]) });
-  assert.equal(mark("m\\ell^2 + m_1 x^m \\dot m \\mathrm{m}"), "\\htmlClass{p-0}{m}\\htmlClass{p-1}{\\ell^2} + m_1 x^m \\dot m \\mathrm{m}");
+  assert.equal(mark("m^{h}_{1} m\\ell^2 + m_1 x^m \\dot m \\mathrm{m}"), "m^{h}_{1} \\htmlClass{p-0}{m}\\htmlClass{p-1}{\\ell^2} + m_1 x^m \\dot m \\mathrm{m}");
 });
 
 /** Formulas of the server, and what stands about their symbols then. @type {[string, string][]} */
@@ -337,6 +337,7 @@ const OF_THE_SYSTEM = [
   ["\\delta W_{a}", "\\htmlClass{of-load_weight of-load_F}{\\delta W_{a}}"],
   ["Q_{\\htmlClass{q-1}{2}}^{d}", "\\htmlClass{of-q_1 of-load_F}{Q_{\\htmlClass{q-1}{2}}^{d}}"],
   ["p_{\\htmlClass{q-0}{1}}", "\\htmlClass{of-q_0}{p_{\\htmlClass{q-0}{1}}}"],
+  ["L^{h}_{\\text{bob}} + L^{2}", "L^{h}_{\\text{bob}} + \\htmlClass{of-body_bob of-load_weight}{L^{2}}"],
   ["\\mathbf{M} \\dot L", "\\htmlClass{of-body_bob}{\\mathbf{M}} \\dot L"],
 ];
 for (const [latex, marked] of OF_THE_SYSTEM)
