@@ -78,9 +78,14 @@ function departure(points, corners) {
 const cornersOf = (d) => d.slice(1).split("L").map((pair) => pair.split(" ").map(Number));
 
 /** All that has a curve over time, by its key. */
-function valuesOf({ coordinates, energy, multipliers }) {
+function valuesOf({ coordinates, energy, multipliers, friction }) {
   const reactions = Object.entries(multipliers ?? {}).map(([name, column]) => [`reaction-${name}`, column]);
-  return { ...coordinates, ...energy, ...Object.fromEntries(reactions) };
+  const frictions = Object.entries(friction ?? {}).flatMap(([name, { force, largest }]) => [
+    [`friction-${name}`, force],
+    [`most-${name}`, largest],
+    [`least-${name}`, largest.map((value) => -value)],
+  ]);
+  return { ...coordinates, ...energy, ...Object.fromEntries([...reactions, ...frictions]) };
 }
 
 /** Seconds around a jump in which two motions may be on either side of it. */

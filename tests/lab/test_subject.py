@@ -27,7 +27,8 @@ JUMPS: dict[str, dict[str, Any]] = {
 }
 
 
-AXES = {axis: {"parameter": "m", "from": 1.0, "to": 2.0, "count": 8} for axis in "xy"}
+RANGE = {"parameter": "m", "from": 1.0, "to": 2.0, "count": 8}
+ASKED = {"stability-map": {"x": RANGE, "y": RANGE}, "bifurcation": {"sweep": RANGE}}
 
 
 @pytest.mark.parametrize("jump", JUMPS)
@@ -42,7 +43,7 @@ def test_no_experiment_follows_one_set_of_equations_where_there_are_several(expe
         "parameters": [{"name": "m"}],
         "bodies": [{"name": "p", "kind": "particle", "mass": "m", "position": ["x", "0"]}],
     }
-    asked = AXES if experiment == "stability-map" else {}
+    asked = ASKED.get(experiment, {})
     with pytest.raises(RequestError) as caught:
         list(get_experiment(experiment).run({"scene": line | JUMPS[jump], "t_end": 5.0} | asked))
     assert caught.value.problems == (Problem("lab-jumps", "/scene"),)

@@ -43,7 +43,9 @@ def ask(**fields: object) -> dict[str, object]:
 @pytest.mark.parametrize("accuracy", [{}, {"tolerance": 1e-9}, {"step": 0.01}], ids=["default", "tolerance", "step"])
 def test_every_scene_answers_in_full(scene: str, accuracy: dict[str, float]) -> None:
     answer = ask(scene=scene, **accuracy)
-    assert set(answer) == FIELDS | (OF_CONSTRAINTS if load_scene(scene).constraints else set())
+    has_friction = any(load.kind == "friction" for load in load_scene(scene).loads)
+    of_scene = (OF_CONSTRAINTS if load_scene(scene).constraints else set()) | ({"friction"} if has_friction else set())
+    assert set(answer) == FIELDS | of_scene
     assert (answer["status"], answer["event"]) == ("ok", None)
     assert answer["reason"] == {"code": "ok", "parameters": answer["reason"]["parameters"]}
     count = len(answer["t"])
