@@ -20,12 +20,12 @@ import httpx
 import pytest
 
 from deltaq import __version__
-from deltaq.api.workers.kernels import mark_as_compiled
 from deltaq.bench import benchmark_names, run_benchmarks
 from deltaq.cli import main
 from deltaq.commands._common import compilation_told
 from deltaq.contract.simulation import SimulationAnswer
 from deltaq.simulation.kernels.compiler import kernel
+from deltaq.simulation.kernels.marks import declared, mark
 
 COMMAND = [sys.executable, "-m", "deltaq.cli"]
 
@@ -56,7 +56,7 @@ def test_kernels_that_are_there_are_not_compiled_again(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     monkeypatch.setenv("NUMBA_CACHE_DIR", str(tmp_path))
-    mark_as_compiled()
+    mark(*declared())
     assert main(["compile"]) == 0
     assert capsys.readouterr().out == "all kernels are there\n"
 

@@ -18,7 +18,7 @@ from deltaq import ownership
 from deltaq.api.stores.disk import Disk
 from deltaq.api.workers import kernels
 from deltaq.ownership import UntrustedFileError, require_trusted
-from deltaq.simulation.kernels.compiler import OwnFiles
+from deltaq.simulation.kernels.machine import OwnFiles
 
 KEY, OTHER = "0123456789abcdef" * 2, "fedcba9876543210" * 2
 Spoil = Callable[[Path, Path], object]
@@ -199,9 +199,9 @@ def test_a_service_whose_kernels_others_may_write_has_a_folder_of_its_own(
 
 def test_every_kernel_is_kept_in_files_that_are_looked_at() -> None:
     program = "from deltaq.simulation import kernels; from deltaq.packages import modules_of; "
-    program += "from numba.core.registry import CPUDispatcher as D; from numba.core.caching import NullCache as N; "
-    program += "kept = [v._cache for m in modules_of(kernels.__name__) for v in vars(m).values() if isinstance(v, D)]; "
-    program += "print({type(c._cache_file).__name__ for c in kept if not isinstance(c, N)})"
+    program += "from deltaq.simulation.kernels.compiler import Kernel as K; "
+    program += "kept = [v for m in modules_of(kernels.__name__) for v in vars(m).values() if isinstance(v, K)]; "
+    program += "print({type(k.compiled._cache._cache_file).__name__ for k in kept})"
     found = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=True)
     assert found.stdout.strip() == "{'OwnFiles'}"
 

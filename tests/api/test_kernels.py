@@ -13,6 +13,7 @@ from deltaq.api.kernels import Kernels
 from deltaq.api.workers.job import Job, Overloaded
 from deltaq.api.workers.kernels import are_compiled
 from deltaq.errors import UnknownNameError
+from deltaq.simulation.kernels.marks import declared, mark
 
 from .workers.conftest import MakePool, make_pool
 
@@ -45,6 +46,7 @@ async def test_a_simulation_waits_for_the_kernels_of_its_method_only(make_pool: 
     pool, kernels = make_pool(), Kernels(COMPILE, ECHO)
     compiling = asyncio.create_task(kernels.compile(pool, pool, workers=1))
     await asyncio.sleep(0)
+    assert kernels.is_compiling("auto")
     come = await in_order(
         experiment=kernels.wait(),
         newmark=kernels.wait("newmark"),
@@ -56,14 +58,13 @@ async def test_a_simulation_waits_for_the_kernels_of_its_method_only(make_pool: 
     early, then, late = set(come[:2]), come[2:4], set(come[4:])
     assert (early, then, late) == ({"auto", "rk4"}, ["ensembles", "radau"], {"newmark", "experiment"})
     await compiling
-    assert are_compiled()
+    assert not kernels.is_compiling("newmark")
 
 
 @pytest.mark.anyio
 async def test_what_is_compiled_is_not_waited_for(make_pool: MakePool) -> None:
-    pool = make_pool()
-    await Kernels(COMPILE, ECHO).compile(pool, pool, workers=2)
-    later = Kernels(SLEEP, SLEEP)
+    pool, later = make_pool(), Kernels(SLEEP, SLEEP)
+    mark(*declared())
     await later.compile(pool, pool, workers=2)
     await later.wait()
     assert pool.state.kills == 0  # as a job that spins is

@@ -1,4 +1,4 @@
-"""Parts of kernels, which only machine code can call, called from Python."""
+"""Parts of kernels as machine code, which only kernels can call, called from Python."""
 
 from __future__ import annotations
 
@@ -10,6 +10,7 @@ from numba import njit
 
 def called(part: Callable[..., Any]) -> Callable[..., Any]:
     """A kernel that does nothing but call the part; kept nowhere, so that it is never older than that."""
+    part = part.in_machine_code()  # type: ignore[attr-defined]
 
     def call(*arguments: Any) -> Any:
         return part(*arguments)

@@ -20,8 +20,10 @@ from deltaq.api.workers.kernels import are_compiled
 from deltaq.model.model import compile_model
 from deltaq.simulation.driver import simulate
 from deltaq.simulation.kernels import explicit_runge_kutta, motion
-from deltaq.simulation.kernels.compiler import OwnFiles, kernel, source_stamp
+from deltaq.simulation.kernels.compiler import kernel
 from deltaq.simulation.kernels.explicit_runge_kutta import integrate
+from deltaq.simulation.kernels.machine import OwnFiles
+from deltaq.simulation.kernels.marks import source_stamp
 from deltaq.simulation.kernels.motion import SMALLEST_PIVOT
 from deltaq.simulation.library import get_method
 from deltaq.simulation.service import problem_of
@@ -79,7 +81,7 @@ def test_nan_is_told_from_singular() -> None:
 def test_a_cached_kernel_is_valid_for_the_code_it_is_made_of(tmp_path: Path) -> None:
     """Numba by itself would look at one file only and run a kernel whose inner functions have changed since."""
     stamp = source_stamp(Path(explicit_runge_kutta.__file__))
-    assert integrate._cache._cache_file._source_stamp == stamp
+    assert integrate.compiled._cache._cache_file._source_stamp == stamp
     assert len(stamp) == 64
     shutil.copytree(PACKAGE, tmp_path / "deltaq", ignore=shutil.ignore_patterns("__pycache__", "static"))
     copy = tmp_path / "deltaq" / "simulation" / "kernels"
@@ -164,7 +166,7 @@ def test_a_kernel_that_cannot_be_kept_is_run_all_the_same(error: Exception, monk
         raise error
 
     for name in ("save", "load"):
-        monkeypatch.setattr(compiled._cache._cache_file, name, fails)
+        monkeypatch.setattr(compiled.compiled._cache._cache_file, name, fails)
     assert compiled(2.5) == 5.0
 
 

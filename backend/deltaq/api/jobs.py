@@ -56,6 +56,12 @@ def simulate(document: Document) -> Document:
     return answer | explained(answer, document["request"]["lang"])
 
 
+def simulate_at_once(document: Document) -> Document | None:
+    """The same while kernels are being compiled; None for a motion that has to wait for them."""
+    answer: Document | None = import_module("deltaq.simulation.service").run_at_once(document["request"])
+    return None if answer is None else answer | explained(answer, document["request"]["lang"])
+
+
 def ensemble(document: Document) -> Document:
     """Many motions of a scene; what each status that occurs means, said in the language asked for."""
     answer: Document = import_module("deltaq.simulation.ensemble_answer").run(document["request"])

@@ -10,7 +10,7 @@ from typing import Any
 from ..simulation.library import ENSEMBLES, get_method, kernel_groups
 from ..vocabulary import AUTO
 from .workers.job import Job, JobError, Overloaded
-from .workers.kernels import are_compiled, mark_as_compiled
+from .workers.kernels import are_compiled
 from .workers.pool import Pool
 
 LOGGER = logging.getLogger("deltaq.api")
@@ -38,8 +38,8 @@ class Kernels:
         self._compiled.update({family: asyncio.Event() for family in kernel_groups()})
         taken = asyncio.Semaphore(workers)
         jobs = [self._compile(family, pool, taken) for family in kernel_groups()]
-        if all(await asyncio.gather(*jobs)) and await _ran(laboratory, self.warm_laboratory, {}):
-            mark_as_compiled()
+        if all(await asyncio.gather(*jobs)):
+            await _ran(laboratory, self.warm_laboratory, {})
 
     async def _compile(self, family: str, pool: Pool, taken: asyncio.Semaphore) -> bool:
         """Whether it worked. Jobs go on in either case: they compile for themselves what is missing."""
@@ -48,6 +48,11 @@ class Kernels:
                 return await _ran(pool, self.warm, {"family": family})
         finally:
             self._compiled[family].set()
+
+    def is_compiling(self, method: str) -> bool:
+        """Whether the kernels of a method are being compiled. Raises UnknownNameError for one that does not exist."""
+        under_way = self._compiled.get(_group_of(method))
+        return under_way is not None and not under_way.is_set()
 
     async def wait(self, *methods: str) -> None:
         """Until the kernels of these methods (or ensembles) are there, all if none is named.

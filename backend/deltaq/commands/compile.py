@@ -27,7 +27,6 @@ def run(_options: argparse.Namespace) -> None:
 
 def _compile() -> None:
     """Each family of methods and the lanes of ensembles, then what only the lab needs."""
-    from ..api.workers.kernels import mark_as_compiled
     from ..lab import divergence, monodromy
     from ..simulation.library import kernel_groups
     from ..simulation.service import warm
@@ -41,5 +40,4 @@ def _compile() -> None:
     print(f"{'stability maps':22} {perf_counter() - start:5.1f} s", flush=True)
     start = perf_counter()
     divergence.warm()
-    mark_as_compiled()
     print(f"{'chaos':22} {perf_counter() - start:5.1f} s")

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from contextlib import suppress
 from dataclasses import replace
+from functools import partial
 from time import perf_counter
 from typing import NoReturn
 
@@ -23,9 +25,10 @@ from .auto import choose
 from .choice import Choice, check
 from .consistency import consistent
 from .derivatives import power
-from .driver import simulate
+from .driver import is_suitable, simulate
 from .event import event_values
 from .friction import friction_along
+from .kernels.compiler import MachineCodeNeededError, interpreted, soonest
 from .library import ENSEMBLES, get_method, method_ids
 from .outcome import Outcome
 from .problem import Floats, Problem, Released
@@ -35,10 +38,23 @@ from .trajectory import Trajectory
 from .transitions import TOUCHING, NoDirectionError, UnsettledError, begun
 
 ANGLES = frozenset({"rad", "1", "°", "deg"})
+SOON, AT_ONCE = 3.0, 0.9  # seconds for what is interpreted: where one waits, where others wait, too
 LARGEST = float(np.finfo(np.float64).max) / 16  # of a number in an answer: differences of energies are numbers, too
 
 
 def run(document: Mapping[str, object]) -> Document:
+    """Simulates what the request names: at once, as `run_at_once`, if that is short, else when all is compiled."""
+    return soonest(partial(_run, document), SOON)
+
+
+def run_at_once(document: Mapping[str, object]) -> Document | None:
+    """The same by kernels that are interpreted where they are not compiled; None if that takes too long."""
+    with suppress(MachineCodeNeededError):
+        return interpreted(partial(_run, document), AT_ONCE)
+    return None
+
+
+def _run(document: Mapping[str, object]) -> Document:
     """Simulates what the request names. Raises InputError for what cannot be read.
 
     `document`: {scene: id or document, guides?, freeze?, parameters?, initial?, t_end, samples?, method?,
@@ -139,11 +155,14 @@ def problem_of(scene: Scene, t_end: float, samples: int = 501) -> Problem:
 def warm(*chosen: str) -> None:
     """Compiles some groups of kernels, or loads them from the cache on disk; all if none is named.
 
-    That is a first run with each method, and one of an ensemble.
+    That is a first run with each method, without and with constraints, and one of an ensemble.
     """
+    problems = [problem_of(load_scene(scene), 0.1, 2) for scene in ("pendulum", "cartesian-pendulum")]
     for method in map(get_method, method_ids()):
         if not chosen or method.family in chosen:
-            simulate(problem_of(load_scene("pendulum"), 0.1, 2), method, step=0.05)
+            for problem in problems:
+                if is_suitable(problem, method):
+                    simulate(problem, method, step=0.05)
     if not chosen or ENSEMBLES in chosen:
         ensemble.warm(problem_of(load_scene("pendulum"), 0.1, 2))
 

@@ -6,6 +6,7 @@ import _thread
 from collections.abc import Callable
 from concurrent.futures import Future
 from contextlib import suppress
+from contextvars import copy_context
 from typing import TypeVar
 
 A = TypeVar("A")
@@ -28,7 +29,7 @@ def side_by_side(first: Callable[[], A], second: Callable[[], B]) -> tuple[A, B]
                 promise.set_exception(error)
 
     with suppress(RuntimeError):  # where there may be no more threads
-        _thread.start_new_thread(fulfil, ())
+        _thread.start_new_thread(copy_context().run, (fulfil,))
     try:
         result = first()
     except BaseException:

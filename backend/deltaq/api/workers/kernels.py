@@ -1,26 +1,16 @@
-"""Which kernels Numba has compiled, as its cache on disk tells; without loading Numba."""
+"""The folder of compiled kernels, for a service and its workers; without loading Numba."""
 
 from __future__ import annotations
 
 import fcntl
-import hashlib
 import os
-import platform
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
 from tempfile import mkdtemp
 
 from ...ownership import UntrustedFileError, require_trusted
-
-KERNELS = Path(__file__).parents[2] / "simulation" / "kernels"
-PROCESSOR = Path("/proc/cpuinfo")
-VARIABLE = "NUMBA_CACHE_DIR"
-
-
-def folder() -> Path:
-    """Where Numba keeps what it has compiled."""
-    return Path(os.environ.get(VARIABLE) or KERNELS / "__pycache__")
+from ...simulation.kernels.marks import VARIABLE, declared, folder, is_marked, own_folder
 
 
 def take_own_folder() -> None:
@@ -30,8 +20,7 @@ def take_own_folder() -> None:
     """
     if _is_trusted(folder()):
         return
-    caches = Path(os.environ.get("XDG_CACHE_HOME") or "~/.cache").expanduser()
-    own = caches / "deltaq" / "kernels"
+    own = own_folder()
     with suppress(OSError):
         own.mkdir(mode=0o700, parents=True, exist_ok=True)
     is_usable = own.is_dir() and _is_trusted(own) and os.access(own, os.W_OK)
@@ -54,13 +43,6 @@ def compiled_kernels() -> int:
     return sum(1 for _ in folder().rglob("*.nbc"))
 
 
-def mark_as_compiled() -> None:
-    """Records that all kernels are compiled, for this source and this processor."""
-    with suppress(OSError):
-        folder().mkdir(parents=True, exist_ok=True)
-        _mark().touch()
-
-
 @contextmanager
 def compiling() -> Iterator[None]:
     """Held by one process at a time: who comes later waits, and finds compiled what the first has compiled.
@@ -80,21 +62,4 @@ def compiling() -> Iterator[None]:
 
 def are_compiled() -> bool:
     """Whether all kernels are compiled for this source and this processor, so that loading them is quick."""
-    return _mark().exists()
-
-
-def _mark() -> Path:
-    """A file whose name depends on what the kernels' validity depends on: their code, not the age of its files, which
-    the layers of an image round.
-    """
-    digest = hashlib.sha256((platform.python_version() + _processor()).encode())
-    for file in sorted(KERNELS.glob("*.py")):
-        digest.update(file.name.encode() + file.read_bytes())
-    return folder() / f"{digest.hexdigest()[:16]}.compiled"
-
-
-def _processor() -> str:
-    with suppress(OSError):
-        lines = PROCESSOR.read_text(encoding="utf-8").splitlines()
-        return "".join(sorted({line for line in lines if line.startswith(("model name", "flags", "Features"))}))
-    return platform.processor()
+    return all(map(is_marked, declared()))

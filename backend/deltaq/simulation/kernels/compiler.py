@@ -1,239 +1,203 @@
-"""How kernels are compiled."""
+"""Which functions are kernels, and how they run: as machine code, or interpreted where there is none yet.
+
+A kernel is a Python function that Numba can compile. That takes seconds for a large one, once on a machine; a first
+motion is there sooner when its kernels are interpreted. Both do the same operations in the same order; machine code may
+round a product and a sum once where the interpreter rounds twice.
+"""
 
 from __future__ import annotations
 
-import ast
-import hashlib
+import ctypes
 import logging
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager, suppress
-from functools import cache, cached_property
-from pathlib import Path
-from pickle import UnpicklingError
-from typing import Any, NoReturn, TypeVar, cast
+from collections.abc import Callable
+from contextvars import ContextVar
+from dataclasses import dataclass
+from functools import cached_property, update_wrapper
+from importlib import import_module
+from time import process_time
+from typing import Any, TypeVar, cast
 
-from numba import njit
-from numba.core.caching import FunctionCache, IndexDataCacheFile
-from numba.core.ccallback import CFunc
-from numba.core.codegen import JITCodeLibrary
-from numba.core.compiler import Compiler
-from numba.core.compiler_machinery import register_pass
-from numba.core.registry import CPUDispatcher
-from numba.core.typed_passes import NativeLowering
+import numpy as np
 
-from ...ownership import require_trusted
+from .marks import is_marked, name_of
 
 LOGGER = logging.getLogger("deltaq.simulation")
 F = TypeVar("F", bound=Callable[..., object])
-# Sums may be fused with products, and are not reordered; kernels have no references to count.
-OPTIONS: dict[str, Any] = {"nogil": True, "error_model": "numpy", "_nrt": False, "fastmath": {"contract"}}
-NO_WRAPPERS: dict[str, Any] = {"no_cpython_wrapper": True, "no_cfunc_wrapper": True}
+A = TypeVar("A")
+KINDS: dict[str, Any] = {"void": None, "int64": ctypes.c_int64, "float64": ctypes.c_double}
+
+
+class MachineCodeNeededError(Exception):
+    """Interpreted kernels have had their time, or cannot say what machine code would: the value of 1/0, say."""
+
+
+@dataclass(eq=False)
+class Interpretation:
+    """Kernels without machine code are interpreted up to a time, `end`, of the processor's clock."""
+
+    end: float
+    is_told: bool = False
+    failure: Exception | None = None  # where none could be raised
+
+    def tell(self) -> None:
+        """Says so, once."""
+        if not self.is_told:
+            self.is_told = True
+            LOGGER.info("kernels are not compiled on this machine yet: this motion is interpreted")
+
+
+_INTERPRETATION: ContextVar[Interpretation | None] = ContextVar("interpretation", default=None)
+
+
+def soonest(compute: Callable[[], A], seconds: float) -> A:
+    """What `compute` finds: by interpreted kernels where there is no machine code; by this if that takes longer.
+
+    `compute` may be called twice.
+    """
+    try:
+        return interpreted(compute, seconds)
+    except MachineCodeNeededError:
+        LOGGER.info("this motion takes longer: its kernels are compiled")
+        return compute()
+
+
+def interpreted(compute: Callable[[], A], seconds: float) -> A:
+    """What `compute` finds, with kernels interpreted that there is no machine code of.
+
+    Raises MachineCodeNeededError if that takes longer, or cannot be done.
+    """
+    token = _INTERPRETATION.set(Interpretation(process_time() + seconds))
+    try:
+        return compute()
+    finally:
+        _INTERPRETATION.reset(token)
+
+
+def checkpoint() -> None:
+    """Stands in loops: where interpreted, it raises MachineCodeNeededError when the time is up."""
+    found = _INTERPRETATION.get()
+    if found is not None and found.failure is not None:
+        raise found.failure
+    if found is not None and process_time() > found.end:
+        raise MachineCodeNeededError
+
+
+def _machine() -> Any:
+    """What makes machine code; loaded where that is needed, for it takes a second."""
+    return import_module("deltaq.simulation.kernels.machine")
+
+
+class Kernel:
+    """A function that is run as machine code, or interpreted where that is wanted and there is no such code yet."""
+
+    def __init__(self, function: Callable[..., Any]) -> None:
+        self.function, self.name = function, name_of(function)
+        update_wrapper(self, function)
+
+    def __call__(self, *arguments: Any) -> Any:
+        """What the function returns. Raises MachineCodeNeededError where it is interpreted, and that takes too long."""
+        interpretation = _INTERPRETATION.get()
+        if interpretation is None or "compiled" in self.__dict__ or is_marked(self.name):
+            return self.compiled(*arguments)
+        interpretation.tell()
+        try:
+            with np.errstate(all="ignore"):
+                return self.function(*arguments)
+        except ArithmeticError:  # of Python's own numbers, which NumPy's would have a value for
+            raise MachineCodeNeededError from None
+
+    @cached_property
+    def compiled(self) -> Any:
+        """Its machine code, made when it is first called."""
+        return _machine().compiled_kernel(self.function)
+
+    def in_machine_code(self) -> Any:
+        """What other kernels call."""
+        return self.compiled
 
 
 def kernel(function: F) -> F:
-    """A function compiled by Numba, kept on disk, run without the interpreter's lock; sums are not reordered.
-
-    Kernels allocate nothing, so they need no reference counting; without it (`_nrt`) a right-hand side takes a quarter
-    of the time, since each array passed on would cost two atomic operations. The cache is beside the source, or in
-    the user's cache directory where that is not writable.
-    """
-    compiled: Any = njit(cache=True, forceinline=False, pipeline_class=KernelCompiler, **OPTIONS)(function)
-    _kept(compiled._cache, function)  # noqa: SLF001 - Numba offers no other way
-    return cast("F", compiled)
+    """A function that is compiled for itself and kept on disk; sums are not reordered (see `machine`)."""
+    return cast("F", Kernel(function))
 
 
 def subroutine(function: F) -> F:
-    """A part of kernels that is always called: too large to be there more than once. Only kernels can call it."""
-    return _part(function, forceinline=False)
+    """A part of kernels that is always called: too large to be there more than once."""
+    return _part(function, is_inlined=False)
 
 
 def inline(function: F) -> F:
     """A part of kernels that is always inlined, since a call would pass seven words for each array."""
-    return _part(function, forceinline=True)
+    return _part(function, is_inlined=True)
 
 
-def _part(function: F, *, forceinline: bool) -> F:
-    options = OPTIONS | NO_WRAPPERS | {"nopython": True, "forceinline": forceinline}
-    return cast("F", PartDispatcher(function, {}, options, PartCompiler))
+def _part(function: F, *, is_inlined: bool) -> F:
+    def in_machine_code() -> Any:
+        return _machine().compiled_part(function, is_inlined=is_inlined)
+
+    function.in_machine_code = in_machine_code  # type: ignore[attr-defined]
+    return function
+
+
+def instruction(function: F) -> F:
+    """A part whose machine code stands in `instructions` under the same name; this is what the interpreter does."""
+
+    def in_machine_code() -> Any:
+        return getattr(import_module("deltaq.simulation.kernels.instructions"), function.__name__)
+
+    function.in_machine_code = in_machine_code  # type: ignore[attr-defined]
+    return function
 
 
 class Callback:
-    """A function with a fixed signature that machine code calls by its address; compiled when first asked for."""
+    """A function with a fixed signature that machine code calls by its address; made when first asked for."""
 
-    def __init__(self, function: Callable[..., object], signature: Any) -> None:
-        self._function, self._signature = function, signature
+    def __init__(self, function: Callable[..., Any], signature: str) -> None:
+        self.function, self.signature, self.name = function, signature, name_of(function)
+        self.__doc__ = function.__doc__
+
+    @property
+    def address(self) -> int:
+        """Where it is, as long as the process lives."""
+        interpretation = _INTERPRETATION.get()
+        if interpretation is None or "compiled" in self.__dict__ or is_marked(self.name):
+            return int(self.compiled.address)
+        interpretation.tell()
+        return int(ctypes.cast(self._called, ctypes.c_void_p).value or 0)
 
     @cached_property
-    def address(self) -> int:
-        """Where the machine code is, as long as the process lives."""
-        arguments, returned = self._signature.args, self._signature.return_type
-        compiled: Any = CFunc(self._function, (arguments, returned), {}, OPTIONS)
-        files: Any = FunctionCache
-        compiled._cache = _kept(files(self._function), self._function)  # noqa: SLF001
-        compiled.compile()
-        self._kept = compiled
-        return int(compiled.address)
+    def compiled(self) -> Any:
+        """Its machine code."""
+        return _machine().compiled_callback(self.function, self.signature)
+
+    @cached_property
+    def _called(self) -> Any:
+        """A function of C that calls the interpreter; what is raised there is raised behind it (`checkpoint`)."""
+        returned, _, given = self.signature.removesuffix(")").partition("(")
+
+        def guarded(*arguments: Any) -> Any:
+            try:
+                with np.errstate(all="ignore"):
+                    return self.function(*arguments)
+            except Exception as error:  # noqa: BLE001  nothing can be raised through C
+                found = _INTERPRETATION.get()
+                if found is not None:
+                    found.failure = MachineCodeNeededError() if isinstance(error, ArithmeticError) else error
+                return None if returned == "void" else 0
+
+        return ctypes.PYFUNCTYPE(KINDS[returned], *(KINDS[each] for each in given.split(", ")))(guarded)
 
 
-def callback(signature: Any) -> Callable[[Callable[..., object]], Callback]:
-    """A function that machine code calls by its address: a compiled model made around another, say."""
+def callback(signature: str) -> Callable[[Callable[..., object]], Callback]:
+    """A function that machine code calls by its address: a compiled model made around another, say.
+
+    The signature names what is returned and given, `void(int64, float64)`.
+    """
 
     def wrapped(function: Callable[..., object]) -> Callback:
         return Callback(function, signature)
 
     return wrapped
-
-
-def _kept(cache: Any, function: Callable[..., object]) -> Any:
-    """The cache of a function, with files that are renewed with all that it is made of.
-
-    Numba looks for changes in the function's own file only, and would keep a kernel whose inner functions changed.
-    """
-    stamp = source_stamp(Path(function.__code__.co_filename))
-    base = cache._impl.filename_base  # noqa: SLF001
-    cache._cache_file = OwnFiles(cache.cache_path, base, stamp)  # noqa: SLF001
-    cache._guard_against_spurious_io_errors = _without_cache_errors  # noqa: SLF001
-    return cache
-
-
-class KernelCompiler(Compiler):
-    """Numba's compiler, which is heard: it takes seconds."""
-
-    def compile_extra(self, function: Callable[..., object]) -> Any:
-        """Numba's result of compiling the function; raises what Numba raises."""
-        LOGGER.info("compiling %s for this machine, once", function.__name__)
-        return super().compile_extra(function)  # type: ignore[no-untyped-call]
-
-
-class PartLibrary(JITCodeLibrary):
-    """The code of a part: an intermediate representation for the kernels that it is linked into, no machine code.
-
-    Numba would optimize a part with all its own parts and make machine code of them, and again in whatever it is a
-    part of.
-    """
-
-    def _optimize_final_module(self) -> None:
-        cheap: dict[str, Any] = {"loop_vectorize": False, "slp_vectorize": False, "opt": 0, "cost": "cheap"}
-        codegen: Any = self._codegen
-        manager, passes = codegen._module_pass_manager(**cheap)  # noqa: SLF001 - as Numba's own library does first
-        manager.run(self._final_module, passes)
-
-    def _finalize_final_module(self) -> None:
-        """What Numba does before it hands the module to the machine."""
-        self._finalize_dynamic_globals()  # type: ignore[no-untyped-call]
-        self._verify_declare_only_symbols()  # type: ignore[no-untyped-call]
-        self._finalized = True
-
-
-@register_pass(mutates_CFG=True, analysis_only=False)  # type: ignore[no-untyped-call]
-class PartLowering(NativeLowering):
-    """Numba's lowering of a function that is declared to its callers, though there is no machine code to be called."""
-
-    _name = "part_lowering"
-
-    def run_pass(self, state: Any) -> bool:
-        """Leaves in the state what `NativeLowering` does, with a mere name in the place of the entry point."""
-        state.flags.no_compile = True
-        super().run_pass(state)  # type: ignore[no-untyped-call]
-        if not state.flags.forceinline:
-            state.library.get_function(state.cr.fndesc.mangled_name).add_function_attribute("noinline")
-        name = object()
-        state.cr = state.cr._replace(cfunc=name)
-        state.targetctx.insert_user_function(name, state.cr.fndesc, [state.library])
-        return True
-
-
-class PartCompiler(Compiler):
-    """Numba's compiler, with a library and a lowering as parts have them."""
-
-    def compile_extra(self, function: Callable[..., object]) -> Any:
-        """Numba's result of compiling the function; raises what Numba raises."""
-        codegen = self.state.targetctx.codegen()
-        self.state.library = PartLibrary(codegen, function.__qualname__)  # type: ignore[no-untyped-call]
-        return super().compile_extra(function)  # type: ignore[no-untyped-call]
-
-    def define_pipelines(self) -> list[Any]:
-        """The usual passes but for the lowering."""
-        (passes,) = super().define_pipelines()  # type: ignore[no-untyped-call]
-        passes.passes = [(PartLowering if one is NativeLowering else one, told) for one, told in passes.passes]
-        passes.finalize()
-        return [passes]
-
-
-class PartDispatcher(CPUDispatcher):
-    """Compiles a part for each set of argument types that a kernel calls it with."""
-
-    def add_overload(self, compiled: Any) -> None:
-        """Known to the kernels alone."""
-        self.overloads[tuple(compiled.signature.args)] = compiled
-
-    def __call__(self, *_arguments: object) -> NoReturn:
-        """Raises TypeError: there is no machine code of its own."""
-        raise TypeError(f"{self.py_func.__name__} is a part of kernels, and cannot be called from Python")
-
-
-class OwnFiles(IndexDataCacheFile):
-    """Numba's files of a kernel, pickles and machine code: nothing is read that others may have written."""
-
-    def __init__(self, folder: str, base: str, stamp: str) -> None:
-        super().__init__(folder, base, stamp)  # type: ignore[no-untyped-call]  # as are all of Numba's
-        self.folder = Path(folder)
-
-    def _load_index(self) -> Any:
-        """What is kept of the kernel; nothing where that speaks of classes which the source no longer has.
-
-        Raises UntrustedFileError, also before anything is written.
-        """
-        for place in (self.folder, self.folder / self._index_name):
-            with suppress(FileNotFoundError):
-                require_trusted(place)
-        try:
-            return super()._load_index()  # type: ignore[no-untyped-call]
-        except (AttributeError, ImportError):
-            return {}
-
-    def _load_data(self, name: str) -> Any:
-        require_trusted(self.folder / name)
-        return super()._load_data(name)  # type: ignore[no-untyped-call]
-
-
-@contextmanager
-def _without_cache_errors() -> Iterator[None]:
-    """A kernel that cannot be kept, or not be read, is compiled anew: a full disk costs time, not the simulation."""
-    try:
-        yield
-    except (OSError, EOFError, UnpicklingError) as error:
-        _warn(type(error).__name__)
-
-
-@cache
-def _warn(what: str) -> None:
-    """Said once for each kind: there are many kernels."""
-    LOGGER.warning("kernels cannot be kept on disk, and are compiled in each process: %s", what)
-
-
-@cache
-def source_stamp(file: Path) -> str:
-    """A digest of the code of a module and of all modules of the package that it imports."""
-    digest, seen, left = hashlib.sha256(), set[Path](), [file]
-    while left:
-        module = left.pop()
-        if module not in seen:
-            seen.add(module)
-            left += _imported(module)
-            digest.update(module.read_bytes())
-    return digest.hexdigest()
-
-
-@cache
-def _imported(file: Path) -> tuple[Path, ...]:
-    """The modules of the package that a module names in its imports; read once, for most kernels rest on the same."""
-    found = set()
-    for node in ast.walk(ast.parse(file.read_text(encoding="utf-8"))):
-        if isinstance(node, ast.ImportFrom) and node.level > 0:
-            folder = file.parents[node.level - 1].joinpath(*(node.module or "").split("."))
-            found |= {folder.with_suffix(".py"), *(folder / f"{alias.name}.py" for alias in node.names)}
-    return tuple(sorted((module for module in found if module.is_file()), reverse=True))
 
 
 @inline

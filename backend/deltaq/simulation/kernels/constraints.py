@@ -8,7 +8,6 @@ Source: Hairer, Wanner, Solving Ordinary Differential Equations II, 2nd ed., VII
 from __future__ import annotations
 
 import numpy as np
-from numba import types
 
 from .compiler import callback, inline, subroutine
 from .motion import FINE, LOCKED, NOT_FINITE, SINGULAR, SMALLEST_PIVOT, Floats, factor, holds, solve
@@ -193,7 +192,7 @@ def phase_as_free(system: System, out: Floats) -> None:
             out[first + i] = np.nan
 
 
-@callback(types.void(types.int64, types.int64, types.int64))
+@callback("void(int64, int64, int64)")
 def constrained_motion(out: int, given: int, data: int) -> None:
     """`as_free` as a compiled model: its address stands for that of a model without constraints.
 
@@ -209,7 +208,7 @@ def constrained_motion(out: int, given: int, data: int) -> None:
         outputs[signs + k] = 1.0
 
 
-@callback(types.void(types.int64, types.int64, types.int64))
+@callback("void(int64, int64, int64)")
 def constrained_phase(out: int, given: int, data: int) -> None:
     """`phase_as_free` as a compiled function of phase space."""
     system = block_at(data)

@@ -42,6 +42,7 @@ from ...model.tape import (
 )
 from .compiler import inline, kernel, subroutine
 from .motion import Floats
+from .pointer import checkpoint
 
 Indices = NDArray[np.int64]
 
@@ -332,6 +333,7 @@ def is_relevant(ranges: Ranges, i: int, threshold: float) -> bool:
 @subroutine
 def largest_swing(tape: TapeArrays, ranges: Ranges, threshold: float) -> tuple[float, bool]:
     """The largest swing of a relevant operation over the box, and whether a relevant choice is undecided in it."""
+    checkpoint()
     propagate_bounds(tape, ranges)
     propagate_influence(tape, ranges)
     largest, is_undecided = 0.0, False

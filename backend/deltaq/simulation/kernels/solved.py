@@ -5,8 +5,6 @@ Source: Hairer, Wanner, Solving Ordinary Differential Equations II, 2nd ed., VII
 
 from __future__ import annotations
 
-from numba import types
-
 from .compiler import callback, inline
 from .motion import FINE, Floats, holds
 from .pointer import call, doubles_at, prevent_vectorization
@@ -100,7 +98,7 @@ def finish_solved(system: System, t: float, h: float, ends: Ends) -> bool:
     return True
 
 
-@callback(types.int64(types.int64, types.float64, types.float64, types.int64, types.int64, types.int64, types.int64))
+@callback("int64(int64, float64, float64, int64, int64, int64, int64)")
 def constrained_finish(
     data: int, t: float, h: float, old: int, new: int, old_derivative: int, new_derivative: int
 ) -> int:
