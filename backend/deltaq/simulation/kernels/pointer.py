@@ -23,7 +23,10 @@ _PLACE, _REAL = ctypes.c_void_p, ctypes.c_double
 
 @instruction
 def call(address: int, data: int, outputs: Floats, inputs: Floats) -> None:
-    """void f(double *out, const double *in, void *data) at `address`; arrays of any shape, contiguous."""
+    """void f(double *out, const double *in, void *data) at `address`.
+
+    `outputs` and `inputs` have shape (numbers,), or any other where they are contiguous.
+    """
     _three(int(address))(outputs.ctypes.data, inputs.ctypes.data, int(data))
     compiler.checkpoint()
 
