@@ -34,12 +34,13 @@ RungStatus = Literal[Status, "refused"]
 Stability = Literal["stable", "undecided", "unstable"]
 # What it leaves open: neighbours at rest, too; forces across the velocity that hold it; zero eigenvalues; friction.
 StabilityKind = Literal["family", "gyroscopic", "degenerate", "band"]
-# Why a search for equilibria is not complete: its operations were spent, or equilibria are not isolated.
-SearchEnd = Literal["budget", "continuum"]
+# Why a search for equilibria is not complete: its operations were spent, equilibria are not isolated, or constraints
+# depend on one another in some of them.
+SearchEnd = Literal["budget", "continuum", "singular"]
 # Parts of the last chapter that a derivation is complete without, and why one is missing: it has not been asked for,
-# its operations were spent, its time was over, it failed, or it is not made for scenes with constraints.
+# its operations were spent, its time was over, it failed, or it is not made for scenes with constraints, or on rates.
 OptionalPart = Literal["model", "equilibria", "small-motions", "integrals", "relative-equilibria", "canonical"]
-Missing = Literal["later", "budget", "time", "failed", "constraints"]
+Missing = Literal["later", "budget", "time", "failed", "constraints", "rates"]
 # Among which generators symmetries are sought: those affine in coordinates and time; motions of space and rigid bodies.
 GeneratorFamily = Literal["affine", "motions-of-space"]
 # What holds a part of a scene fixed: a length, another parameter of positions, the guide of a coordinate.

@@ -34,13 +34,17 @@ const SYSTEM = {
   D: [["loads"]],
   f: [["loads"]],
   x: [["coordinates"]],
+  y: [["coordinates"]],
   "\\mathbf{M}": [["bodies"]],
   "\\mathbf{K}": [["stores"], ["loads"]],
   "\\mathbf{D}": [["loads"]],
   "\\mathbf{f}": [["loads"]],
   "\\mathbf{A}": [["constraints"]],
+  "\\mathbf{N}": [["constraints"]],
+  "\\boldsymbol{\\lambda}": [["constraints"]],
   "\\mathbf{q}": [["coordinates"]],
   "\\mathbf{x}": [["coordinates"]],
+  "\\mathbf{y}": [["coordinates"]],
   "\\Phi": [["constraints"]],
   "\\omega": [["coordinates"]],
   "\\kappa": [["coordinates"]],
@@ -48,8 +52,8 @@ const SYSTEM = {
   "\\varepsilon": [["coordinates"]],
 };
 
-/** Symbols that are numbered: modes by their number, and what is meant at an equilibrium by 0. @param {string} symbol */
-const unnumbered = (symbol) => symbol.replace(/_(?:\{\d+\}|\d)$/, "");
+/** Symbols with an index: modes their number, what is meant at an equilibrium 0, on its constraints r. @param {string} symbol */
+const unnumbered = (symbol) => symbol.replace(/_(?:\{\d+\}|[\dr])$/, "");
 
 /**
  * The classes of what each symbol of the system belongs to, "" for one that is none, and of each generalized force, by

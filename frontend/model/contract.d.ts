@@ -3357,6 +3357,14 @@ export interface components {
                 [key: string]: components["schemas"]["EquilibriumValue"];
             };
             /**
+             * Multipliers
+             * @description with constraints, the multipliers that hold the system there
+             * @default {}
+             */
+            multipliers: {
+                [key: string]: components["schemas"]["EquilibriumValue"];
+            };
+            /**
              * Exact
              * @description whether the values are closed forms in the parameters
              */
@@ -3427,7 +3435,7 @@ export interface components {
              * Left Out
              * @description why it is not complete
              */
-            left_out: ("budget" | "continuum") | null;
+            left_out: ("budget" | "continuum" | "singular") | null;
         };
         /**
          * EquilibriumValue
@@ -4682,7 +4690,7 @@ export interface components {
              * @description `later`: ask for it; `budget`: its operations are spent; `time`: so is its time; `failed`: our bug
              * @enum {string}
              */
-            reason: "later" | "budget" | "time" | "failed" | "constraints";
+            reason: "later" | "budget" | "time" | "failed" | "constraints" | "rates";
             /**
              * Text
              * @description that it is missing, and what to do about it

@@ -34,7 +34,8 @@ def result(name: str) -> Result:
 def test_every_step_holds_exactly(name: str, formulation: str) -> None:
     _, derivation = derived(name, formulation)
     assert [step.id for step in derivation.steps() if not step.verified] == []
-    assert [step.id for step in derivation.steps() if step.evidence.kind == "sampled"] == []
+    sampled = {step.rule for step in derivation.steps() if step.evidence.kind == "sampled"}
+    assert sampled <= {"eigenfrequencies", "mode-shapes"}  # which end in numbers
 
 
 @pytest.mark.parametrize("name", SCENES)
@@ -116,10 +117,9 @@ def test_momenta_of_bound_coordinates_are_not_conserved() -> None:
 @pytest.mark.parametrize("language", ["de", "en"])
 def test_what_is_not_sought_with_constraints_is_named(language: str) -> None:
     told = narrated(*derived("sleigh"), language)
-    missing = {(each["part"], each["reason"]) for each in told["left_out"]}
-    assert missing == {
-        (part, "constraints") for part in ("equilibria", "integrals", "relative-equilibria", "canonical")
-    }
+    missing = {each["part"]: each["reason"] for each in told["left_out"]}
+    others = dict.fromkeys(("integrals", "relative-equilibria", "canonical"), "constraints")
+    assert missing == {"equilibria": "rates", **others}
     assert (told["result"]["equilibria"], told["result"]["equilibrium_search"]) == ([], None)
     (bound,) = told["result"]["constraints"]
     assert (bound["name"], bound["kind"], bound["holonomic"]) == ("blade", "equation", False)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 from collections.abc import Iterator
+from typing import Any
 
 import pytest
 from tests.derived import derived
@@ -67,3 +68,17 @@ def test_quantities_give_way_to_the_letters_of_a_scene() -> None:
     assert steps["jacobi-energy"]["text"].startswith(r"Here it equals $\mathcal{E} + \mathcal{V}$")
     assert steps["linearization"]["text"].startswith(r"With $q = q_0 + \xi$ and small $\xi$")
     assert steps["eigenfrequencies"]["text"].startswith(r"Trying $\xi = a \cos\nu t$")
+
+
+def test_bold_letters_stay_bold_beside_a_parameter_f() -> None:
+    r"""The letter that gives way is that of the symbol, not the last one of \mathbf."""
+    document = {
+        "format": 1, "id": "f", "title": "f", "dimension": 2,
+        "coordinates": [{"name": "x"}, {"name": "y"}],
+        "parameters": [{"name": "m", "value": 1.0}, {"name": "f", "value": 1.0}],
+        "bodies": [{"name": "b", "kind": "particle", "mass": "m", "position": ["x", "y"]}],
+        "loads": [{"kind": "force", "at": "b", "force": ["f", "0"]}],
+    }  # fmt: skip
+    chapters: Any = derive_request({"scene": document, "lang": "en"})["chapters"]
+    (step,) = (step for chapter in chapters for step in chapter["steps"] if step["id"] == "matrix-form")
+    assert "mathb\\mathcal" not in step["latex"]

@@ -281,6 +281,9 @@ class Equilibrium(Answer):
     """A state of rest, and the small motions about it; frequencies in rad/s."""
 
     values: dict[str, EquilibriumValue] = Field(description="a coordinate that is missing may have any value")
+    multipliers: dict[str, EquilibriumValue] = Field(
+        {}, description="with constraints, the multipliers that hold the system there"
+    )
     exact: bool = Field(description="whether the values are closed forms in the parameters")
     free: tuple[str, ...] = Field(
         description="coordinates that may have any value; where they are among the values, this stands for a family"

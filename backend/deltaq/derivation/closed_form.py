@@ -36,11 +36,20 @@ class Sought:
 def closed_form(sought: Sought) -> Known | None:
     """The unknowns as expressions in the parameters, if they can be recognized."""
     simple = {q: value for q, number in sought.numbers.items() if (value := _simple(sought, q, number)) is not None}
-    for known in (simple, {}) if simple else ({},):
+    for known in _guesses(simple):
         found = _eliminated(sought, dict(known))
         if found is not None and _solves(sought, found):
             return found
     return None
+
+
+def _guesses(simple: Known) -> Iterator[Known]:
+    """All that look simple; all but one, as l₁ − l₂ is zero by chance where both are 1 m; none."""
+    yield simple
+    if len(simple) > 1:
+        yield from ({q: value for q, value in simple.items() if q != other} for other in reversed(simple))
+    if simple:
+        yield {}
 
 
 def _simple(sought: Sought, q: sp.Symbol, number: float) -> sp.Expr | None:

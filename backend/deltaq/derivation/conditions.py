@@ -70,8 +70,7 @@ def _existence(system: System, equilibrium: Equilibrium) -> Iterator[Comparison]
 
 def _stability(system: System, linear: Linearization) -> list[Comparison] | None:
     """Of each leading minor that decides: its sign."""
-    free = free_coordinates(system)
-    kept = [i for i, q in enumerate(system.free) if q not in free]
+    kept = _kept(system, linear)
     passive = is_passive(system) or (bool(dissipative_loads(system)) and not remaining_loads(system))
     decides = linear.stability != "undecided" and linear.verdict.derivative <= 1 and not linear.verdict.kind
     if not passive or not decides or not 0 < len(kept) <= MOST:
@@ -84,6 +83,14 @@ def _stability(system: System, linear: Linearization) -> list[Comparison] | None
         chosen = [minor for minor, sign in zip(minors, signs, strict=True) if sign < 0][:1]
     found = [_signed(system, minor) for minor in chosen]
     return [each for one in found if one for each in one] if chosen and all(one is not None for one in found) else None
+
+
+def _kept(system: System, linear: Linearization) -> list[int]:
+    """The places of the coordinates that forces depend on; on constraints, all that may be chosen."""
+    if linear.tangent:
+        return list(range(len(linear.tangent.independent)))
+    free = free_coordinates(system)
+    return [i for i, q in enumerate(system.free) if q not in free]
 
 
 def _sign_of(system: System, value: sp.Expr) -> int:

@@ -14,7 +14,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from itertools import islice, product
 
 import sympy as sp
@@ -42,12 +42,13 @@ class Equilibrium:
 
     `values` are closed forms in the parameters (exact), or the numbers at the scene's values of them. Coordinates in
     `free` may have any value: those that are not in `values`, whose values may depend on them; and where numbers stand
-    for a whole family of equilibria, those that may be chosen near them.
+    for a whole family of equilibria, those that may be chosen near them. `reactions` are multipliers.
     """
 
     values: Mapping[sp.Symbol, sp.Expr]
     exact: bool
     free: tuple[str, ...] = ()
+    reactions: Mapping[sp.Symbol, sp.Expr] = field(default_factory=dict)
 
     @property
     def is_family(self) -> bool:
@@ -60,7 +61,8 @@ class Search:
     """What was found, how many there are, and whether that is all.
 
     `ranges` tells between which values coordinates were searched that are not searched everywhere. `left_out` says why
-    a search is not complete: "budget", or "continuum" where equilibria are not isolated and others may lie apart.
+    a search is not complete: "budget", "continuum" where equilibria are not isolated and others may lie apart, or
+    "singular" where constraints depend on one another, so that their multipliers are not unique.
     """
 
     found: tuple[Equilibrium, ...]
@@ -76,12 +78,6 @@ class _Part:
 
     equations: tuple[sp.Expr, ...]
     unknowns: tuple[Coordinate, ...]
-
-
-def equilibria(system: System) -> tuple[Equilibrium, ...] | None:
-    """Those that were found; none where forces never vanish. None: there is no such thing, as time is in the laws."""
-    found = search(system)
-    return None if found is None else found.found
 
 
 @cached_method
@@ -124,8 +120,8 @@ def _merged(system: System, parts: tuple[Equilibrium, ...]) -> Equilibrium:
 
 
 def free_coordinates(system: System) -> tuple[str, ...]:
-    """Coordinates that no force at rest depends on: they may have any value in an equilibrium."""
-    forces = forces_at_rest(system)
+    """Coordinates that no force at rest and no constraint depends on: they may have any value in an equilibrium."""
+    forces = sp.Tuple(*forces_at_rest(system), *map(system.condition, system.conditions))
     return tuple(q for q in system.free if not forces.has(system.q(q)))
 
 
@@ -245,7 +241,7 @@ def is_angle(system: System, q: sp.Symbol) -> bool:
 @cached_method
 def _waves(system: System) -> tuple[frozenset[sp.Expr], frozenset[sp.Symbol]]:
     """The sines and cosines in the equations of motion, and the symbols that stand outside them."""
-    laws = sp.Tuple(*mass_matrix(system), *forcing(system))
+    laws = sp.Tuple(*mass_matrix(system), *forcing(system), *map(system.condition, system.conditions))
     waves = laws.atoms(sp.sin, sp.cos)
     hidden = laws.xreplace({wave: sp.Dummy() for wave in waves})
     return frozenset(waves), frozenset(hidden.free_symbols)

@@ -6,6 +6,7 @@ Source: Goldstein, Poole, Safko, Classical Mechanics, 3rd ed., §6.2; Meirovitch
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import sympy as sp
@@ -14,16 +15,18 @@ from flint import arb, ctx
 from ..language.derivatives import diff
 from ..language.memory import cached_method
 from ..vocabulary import Stability
+from .bound_equilibria import searched
 from .calculus import column
-from .equilibria import Equilibrium, equilibria, start_point
+from .equilibria import Equilibrium, start_point
 from .evaluation import components
 from .friction import Band, band
 from .matrix_form import forces_at_rest, forcing, mass_matrix
 from .program import number
 from .refinement import rational
 from .spectrum import Spectrum, spectrum
-from .stability import Verdict, verdict
+from .stability import Verdict, growth, verdict
 from .system import System
+from .tangent import Tangent, bound_verdict, projected
 
 BITS = 512
 UNDEFINED = (sp.nan, sp.zoo, sp.oo, -sp.oo)
@@ -36,7 +39,7 @@ class Linearization:
     """The matrices about one equilibrium, in the parameters where it is exact, else in numbers.
 
     `spectrum` holds the numbers at the scene's parameter values; there is none where M₀ is singular or a force jumps.
-    In a `band` dry friction holds the system.
+    In a `band` dry friction holds the system. With constraints the matrices are those on the `tangent` space of them.
     """
 
     equilibrium: Equilibrium
@@ -47,6 +50,24 @@ class Linearization:
     verdict: Verdict
     is_smooth: bool
     band: Band | None = None
+    tangent: Tangent | None = None
+
+    @property
+    def is_scalar(self) -> bool:
+        """Whether there is one degree of freedom, so that M₀, D₀, K₀ and x are numbers."""
+        return bool(self.mass.shape == (1, 1))
+
+    def in_all_coordinates(self, *shapes: Sequence[sp.Expr]) -> tuple[tuple[sp.Expr, ...], ...]:
+        """Shapes of a motion as they move all free coordinates: on constraints N a, its largest part 1 again."""
+        if self.tangent is None:
+            return tuple(map(tuple, shapes))
+        wide = [self.tangent.spread * sp.ImmutableMatrix([[part] for part in shape]) for shape in shapes]
+        sizes = [sum(part**2 for part in parts) for parts in zip(*wide, strict=True)]
+        place = max(range(len(sizes)), key=sizes.__getitem__)
+        first, *others = wide
+        if not others:
+            return (tuple(part / first[place] for part in first),)
+        return _turned(first, others[0], place)
 
     @property
     def stability(self) -> Stability:
@@ -57,6 +78,16 @@ class Linearization:
     def is_damped(self) -> bool:
         """Whether rates enter at all."""
         return any(entry != 0 for entry in self.damping)
+
+
+def _turned(
+    real: sp.ImmutableMatrix, imaginary: sp.ImmutableMatrix, place: int
+) -> tuple[tuple[sp.Expr, ...], tuple[sp.Expr, ...]]:
+    """A complex shape divided by one of its parts."""
+    a, b = real[place], imaginary[place]
+    size = a**2 + b**2
+    first = tuple((x * a + y * b) / size for x, y in zip(real, imaginary, strict=True))
+    return first, tuple((y * a - x * b) / size for x, y in zip(real, imaginary, strict=True))
 
 
 @cached_method
@@ -103,13 +134,25 @@ def stiffness_at_rest(system: System) -> sp.ImmutableMatrix:
 @cached_method
 def linearizations(system: System) -> tuple[Linearization, ...]:
     """One for each equilibrium, stable ones first."""
-    tried = [_afforded(system, each) for each in equilibria(system) or ()]
+    known = searched(system)
+    tried = [_afforded(system, each) for each in (known.found if known else ())]
     found = [each for each in tried if each is not None]
     return tuple(sorted(found, key=lambda each: ORDER.index(each.stability)))
 
 
 def _afforded(system: System, equilibrium: Equilibrium) -> Linearization | None:
-    return system.effort.afford("small-motions", lambda: _about(system, equilibrium), None)
+    about = _on_constraints if system.conditions else _about
+    return system.effort.afford("small-motions", lambda: about(system, equilibrium), None)
+
+
+def _on_constraints(system: System, equilibrium: Equilibrium) -> Linearization:
+    """Small motions that keep the constraints."""
+    law = projected(system, equilibrium, damping_at_rest(system))
+    with ctx.workprec(BITS):
+        smooth = all(part.is_finite() for values in law.numbers for part in values)
+        found = spectrum(*law.numbers, len(law.tangent.independent)) if smooth else None
+        judged = bound_verdict(system, equilibrium, law, growth(found) if found else 0)
+    return Linearization(equilibrium, *law.shown, found, judged, smooth, tangent=law.tangent)
 
 
 def _about(system: System, equilibrium: Equilibrium) -> Linearization:
@@ -145,7 +188,8 @@ def numeric_point(system: System, equilibrium: Equilibrium) -> dict[str, arb]:
     return point | {q.name: number(value, point) for q, value in equilibrium.values.items()}
 
 
-def deviations(system: System) -> tuple[sp.ImmutableMatrix, ...]:
+def deviations(system: System, linear: Linearization) -> tuple[sp.ImmutableMatrix, ...]:
     """x, ẋ, ẍ: symbols that are free at the points of the verification stand for them."""
     kinds = (system.variation, system.rate, system.acceleration)
-    return tuple(column(kind(q) for q in system.free) for kind in kinds)
+    names = linear.tangent.independent if linear.tangent else system.free
+    return tuple(column(kind(q) for q in names) for kind in kinds)

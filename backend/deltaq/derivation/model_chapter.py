@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from .bound_equilibria import is_sought
 from .conditions import conditions
 from .conservation import cyclic, jacobi_energy_rate
 from .conservation import jacobi_energy as energy_of
@@ -46,11 +47,11 @@ def model(system: System) -> Iterator[Step]:
     """Matrix form, equilibria with their small motions, and what is conserved."""
     if not system.conditions:
         yield matrix_form.apply(system)
-    if is_autonomous(system) and not system.conditions:
+    if is_autonomous(system) and is_sought(system):
         yield equilibrium_condition.apply(system)
         yield from _equilibria(system)
-    elif system.conditions:
-        search_of(system)
+    elif not is_sought(system):
+        search_of(system)  # which says why not
     yield from _conserved(system)
     yield from (left_out.apply(part, why) for part, why in system.effort.left_out.items())
 

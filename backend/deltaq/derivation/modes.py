@@ -38,7 +38,7 @@ def symbolic_modes(system: System, linear: Linearization) -> SymbolicModes | Non
 
 def damped_root(system: System, linear: Linearization) -> tuple[sp.Expr, sp.Expr] | None:
     """δ and ω² of λ = −δ ± iω for one degree of freedom: δ = D/2M, ω² = K/M − δ²."""
-    if len(system.free) > 1 or not linear.equilibrium.exact:
+    if not linear.is_scalar or not linear.equilibrium.exact:
         return None
     M, D, K = linear.mass[0, 0], linear.damping[0, 0], linear.stiffness[0, 0]
     decay = system.display(D / (2 * M))

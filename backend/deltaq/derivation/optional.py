@@ -1,14 +1,15 @@
 """The parts of the last chapter that a derivation is complete without, each within its share of operations.
 
 A part whose share is used up is as if there were nothing to be found; `system.effort.left_out` tells so, as it does of
-parts that have no law for scenes with constraints: equilibria with multipliers, symmetries that keep the constraints.
+parts that have no law for scenes with constraints: symmetries that keep them, equilibria with constraints on rates.
 """
 
 from __future__ import annotations
 
 from ..vocabulary import OptionalPart
+from .bound_equilibria import is_sought, searched
 from .conservation import Reduction, reduction
-from .equilibria import Search, search
+from .equilibria import Search
 from .generator import Symmetry
 from .linearization import Linearization, linearizations
 from .steady import SteadyMotion, steady_motions
@@ -18,9 +19,10 @@ from .system import System
 
 def search_of(system: System) -> Search | None:
     """The search for equilibria."""
-    if _is_bound(system, "equilibria"):
+    if not is_sought(system):
+        system.effort.left_out["equilibria"] = "rates"
         return None
-    return system.effort.afford("equilibria", lambda: search(system), None)
+    return system.effort.afford("equilibria", lambda: searched(system), None)
 
 
 def motions_of(system: System) -> tuple[Linearization, ...]:

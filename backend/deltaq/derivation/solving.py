@@ -174,10 +174,15 @@ class Solver:
             return self._by_newton(chosen, unknowns, complete=False)
         found = enclosed(chosen, unknowns, self.domain.box(unknowns), self.budget)
         ranged = frozenset(unknowns) - self.domain.angles
-        solutions = [Solution(dict(zip(unknowns, root, strict=True)), (), chosen) for root in found.roots]
+        solutions = [Solution(self._turned(unknowns, root), (), chosen) for root in found.roots]
         solutions += [_flat(box, unknowns, chosen) for box in _joined(found)]
         more = self._by_newton(chosen, unknowns, complete=found.complete, near=self._apart(found.undecided, unknowns))
         return Solutions((*solutions, *more.found), more.complete, ranged)
+
+    def _turned(self, unknowns: tuple[sp.Symbol, ...], root: Sequence[float]) -> Values:
+        """A root of the box, its angles in (−π, π]."""
+        pairs = zip(unknowns, root, strict=True)
+        return {q: turned(x) if q in self.domain.angles else x for q, x in pairs}
 
     def _apart(self, points: Sequence[Sequence[float]], unknowns: tuple[sp.Symbol, ...]) -> list[Sequence[float]]:
         """One for each cluster of points."""

@@ -64,8 +64,8 @@ def verdict(
     found: Spectrum | None,
 ) -> Verdict:
     """The stability at the scene's values, where `point` is the equilibrium in numbers."""
-    if found is not None and (growth := _growth(found)):
-        return Verdict("unstable" if growth > 0 else "stable")
+    if found is not None and (sign := growth(found)):
+        return Verdict("unstable" if sign > 0 else "stable")
     free = free_coordinates(system)
     kept = [i for i, q in enumerate(system.free) if q not in free]
     if not kept or not (is_passive(system) or is_dissipative(system, matrices[1])):
@@ -85,7 +85,7 @@ def _by_energy(
     stiffness = [[matrices[2][i * size + k] for k in kept] for i in kept]
     signs = signature(stiffness)
     loose = sum(1 for q in equilibrium.free if q not in free)
-    turning = bool(_skew(matrices[1], size))
+    turning = bool(skew(matrices[1], size))
     if signs is None or signs.positive == len(kept):
         return Verdict("undecided" if signs is None else "stable")
     if not signs.negative and signs.zero == loose > 0:
@@ -117,7 +117,7 @@ def _each_alone(system: System, equilibrium: Equilibrium, point: Mapping[str, ar
     return min(verdicts, key=lambda each: (order.index(each.stability), -each.derivative))
 
 
-def _skew(matrix: list[arb], size: int) -> list[arb]:
+def skew(matrix: list[arb], size: int) -> list[arb]:
     """The gyroscopic part of D, what it is more than rounding."""
     largest = max(map(abs, matrix), default=arb(0))
     parts = [matrix[i * size + k] - matrix[k * size + i] for i, k in combinations(range(size), 2)]
@@ -148,7 +148,7 @@ def _by_leading_form(system: System, point: Mapping[str, arb], kept: list[int]) 
     return Verdict("stable" if sign > 0 else "unstable", degree - 1, by_form=True)
 
 
-def _growth(found: Spectrum) -> int:
+def growth(found: Spectrum) -> int:
     """1 if a small motion grows, −1 if all decay, else 0."""
     largest = max((value.size for value in found.eigenvalues), default=0.0) or 1.0
     growths = [float(value.real) / largest for value in found.eigenvalues]

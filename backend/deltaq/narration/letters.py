@@ -14,9 +14,9 @@ from ..language.names import Names
 Letters = Mapping[str, str]  # of a quantity, to what stands for it in one scene, braces doubled as in all templates
 
 OF_FUNCTIONALS = ("f", "F", "I", "H", "p")
-OF_QUANTITIES = ("E", "V", "L", "S", "W", "R", "M", "h", "f", "x", "I", "U", "H")
-RELATED = {"x": r"\xi"}  # the others become calligraphic
-LEADING = re.compile(r"(-?(?:\\d?dot\{\{|\\delta )?)([A-Za-z])(?![A-Za-z])")
+OF_QUANTITIES = ("E", "V", "L", "S", "W", "R", "M", "h", "f", "x", "y", "I", "U", "H")
+RELATED = {"x": r"\xi", "y": r"\eta"}  # the others become calligraphic
+LEADING = re.compile(r"^(-?(?:\\d?dot\{\{|\\delta )?)([A-Za-z])(?![A-Za-z])")
 MATHEMATICS = re.compile(r"\$[^$]+\$")
 WORD = re.compile(r"\\?[A-Za-z]+")
 

@@ -26,16 +26,19 @@ DIGITS = 12
 def equilibrium(told: Told, scene: Scene, write: ExpressionWriter) -> Document:
     """One equilibrium: where, how stable, and with which frequencies (rad/s) it oscillates in which shapes.
 
-    Coordinates in `free` may have any value. `exact` says that plain and latex are closed forms
-    in the parameters; `number` is their value in this scene. No numbers of small motions where one is beyond doubles.
+    Coordinates in `free` may have any value; shapes are in all coordinates, also with constraints. `exact` says that
+    plain and latex are closed forms in the parameters; `number` is their value in this scene. No numbers of small
+    motions where one is beyond doubles.
     """
     linear = told.linear
     free = [coordinate.name for coordinate in scene.free]
     point = {parameter.name: arb(parameter.value) for parameter in scene.parameters}
     point |= {coordinate.name: arb(coordinate.value) for coordinate in scene.free}
+    held = linear.equilibrium.reactions
     spectrum = linear.spectrum if linear.spectrum and linear.spectrum.is_representable else None
     return {
         "values": {q.name: _value(q, linear, point, write) for q in linear.equilibrium.values},
+        **({"multipliers": {e.name: _reaction(v, linear, point, write) for e, v in held.items()}} if held else {}),
         "exact": linear.equilibrium.exact,
         "free": list(linear.equilibrium.free),
         "stability": linear.stability,
@@ -44,8 +47,8 @@ def equilibrium(told: Told, scene: Scene, write: ExpressionWriter) -> Document:
         "band": _band(linear, point, write),
         "eigenvalues": [[_float(v.real), _float(v.imaginary)] for v in spectrum.eigenvalues] if spectrum else [],
         "eigenfrequencies": [_float(frequency) for frequency in spectrum.frequencies] if spectrum else [],
-        "modes": [_mode(mode, free) for mode in spectrum.modes] if spectrum else [],
-        "complex_modes": [_complex_mode(mode, free) for mode in spectrum.complex_modes] if spectrum else [],
+        "modes": [_mode(mode, linear, free) for mode in spectrum.modes] if spectrum else [],
+        "complex_modes": [_complex_mode(mode, linear, free) for mode in spectrum.complex_modes] if spectrum else [],
     }
 
 
@@ -91,21 +94,26 @@ def _value(q: sp.Symbol, linear: Linearization, point: Mapping[str, arb], write:
     return _written(linear.equilibrium.values[q], point, write, exact=linear.equilibrium.exact)
 
 
+def _reaction(value: sp.Expr, linear: Linearization, point: Mapping[str, arb], write: ExpressionWriter) -> Document:
+    return _written(value, point, write, exact=linear.equilibrium.exact)
+
+
 def _written(value: sp.Expr, point: Mapping[str, arb], write: ExpressionWriter, *, exact: bool) -> Document:
     if exact:
         return {**write.written(value), "number": _float(number(value, point))}
     return write.number(value, _float(value))
 
 
-def _mode(mode: Mode, free: list[str]) -> Document:
+def _mode(mode: Mode, linear: Linearization, free: list[str]) -> Document:
     """ω² in 1/s², negative where the motion grows, and the ratio of the amplitudes."""
-    shape = {name: _float(part) for name, part in zip(free, mode.shape, strict=True)}
+    (parts,) = linear.in_all_coordinates(mode.shape)
+    shape = {name: _float(part) for name, part in zip(free, parts, strict=True)}
     return {"eigenfrequency_squared": _float(mode.square), "shape": shape}
 
 
-def _complex_mode(mode: ComplexMode, free: list[str]) -> Document:
+def _complex_mode(mode: ComplexMode, linear: Linearization, free: list[str]) -> Document:
     """x = Re(a e^λt): circular frequency in rad/s, decay in 1/s (negative: growth), a as [real, imaginary] parts."""
-    parts = zip(free, mode.real, mode.imaginary, strict=True)
+    parts = zip(free, *linear.in_all_coordinates(mode.real, mode.imaginary), strict=True)
     return {
         "eigenfrequency": _float(mode.eigenvalue.imaginary),
         "decay": _float(-mode.eigenvalue.real),

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
+from ..derivation.rules.left_out import REASONS
 from ..vocabulary import Missing, OptionalPart
 from .catalog import text
 from .prose import plain
@@ -34,6 +35,6 @@ def outcomes_explained(outcomes: Document, language: str) -> Document:
 
 def missing(part: OptionalPart, reason: Missing, language: str) -> Document:
     """A part of a derivation that is not there, why, and what to do about it."""
-    outcome = f"{part}-constrained" if reason == "constraints" else part
+    outcome = f"{part}{REASONS.get(reason, '')}"
     key = f"rules.left-out.{reason}" if part == "model" else f"rules.steps.left-out.{outcome}"
     return {"part": part, "reason": reason, "text": plain(text(language, key))}

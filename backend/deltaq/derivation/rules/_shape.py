@@ -4,14 +4,15 @@ from __future__ import annotations
 
 import sympy as sp
 
-from ..formula import Explicit, Inserted, Named, Quantity, Value
+from ..calculus import column
+from ..formula import Explicit, Formula, Inserted, MatrixTimes, Named, Plus, Quantity, Term, Times, Value
 from ..linearization import Linearization, deviations
 from ..step import Relation
 from ..system import System
 
 
 def is_scalar(system: System) -> bool:
-    """Whether the system has one degree of freedom, so that M, f, x are numbers."""
+    """Whether the system has one coordinate, so that M and f are numbers."""
     return len(system.free) == 1
 
 
@@ -20,38 +21,54 @@ def plain_value(value: sp.ImmutableMatrix) -> Value:
     return value[0, 0] if value.shape == (1, 1) else value
 
 
-def shaped(system: System, kind: str, form: str, value: sp.ImmutableMatrix) -> Named:
-    """`kind` under its bold symbol as `form` (matrix or vector), or as a plain letter."""
-    return Named(Quantity(f"{kind}-{'scalar' if is_scalar(system) else form}"), plain_value(value))
+def shaped(kind: str, form: str, value: sp.ImmutableMatrix) -> Named:
+    """`kind` under its bold symbol as `form` (matrix or vector), or as a plain letter if it is one number."""
+    return Named(Quantity(f"{kind}-{'scalar' if value.shape == (1, 1) else form}"), plain_value(value))
 
 
-def zero(system: System) -> Named | Explicit:
-    """The right side 0 of an equation of motion: a number, or a bold zero of as many rows as coordinates are free."""
-    if is_scalar(system):
-        return Explicit(system.zero)
-    return Named(Quantity("zero-vector"), sp.ImmutableMatrix.zeros(len(system.free), 1))
+def zero(rows: int) -> Named | Explicit:
+    """The right side 0 of an equation: a number, or a bold zero of several rows."""
+    if rows == 1:
+        return Explicit(sp.Integer(0))
+    return Named(Quantity("zero-vector"), sp.ImmutableMatrix.zeros(rows, 1))
 
 
-def matrices(system: System, linear: Linearization) -> tuple[Named, Named, Named]:
-    """M₀, D₀ and K₀."""
-    values = {"linear-mass": linear.mass, "linear-damping": linear.damping, "linear-stiffness": linear.stiffness}
-    mass, damping, stiffness = (shaped(system, kind, "matrix", value) for kind, value in values.items())
+def matrices(linear: Linearization) -> tuple[Named, Named, Named]:
+    """M₀, D₀ and K₀ of the small motions; with constraints, those on their tangent space."""
+    values = {"mass": linear.mass, "damping": linear.damping, "stiffness": linear.stiffness}
+    kind = "reduced" if linear.tangent else "linear"
+    mass, damping, stiffness = (shaped(f"{kind}-{name}", "matrix", value) for name, value in values.items())
     return mass, damping, stiffness
 
 
-def motions(system: System) -> tuple[Named, Named, Named]:
-    """ẍ, ẋ and x."""
-    x, speed, acceleration = deviations(system)
+def motions(system: System, linear: Linearization) -> tuple[Named, Named, Named]:
+    """ẍ, ẋ and x; with constraints, ÿ, ẏ and y of the coordinates that may be chosen."""
+    x, speed, acceleration = deviations(system, linear)
+    kind = "chosen-deviation" if linear.tangent else "deviation"
     return (
-        shaped(system, "deviation-acceleration", "vector", acceleration),
-        shaped(system, "deviation-rate", "vector", speed),
-        shaped(system, "deviation", "vector", x),
+        shaped(f"{kind}-acceleration", "vector", acceleration),
+        shaped(f"{kind}-rate", "vector", speed),
+        shaped(kind, "vector", x),
     )
 
 
 def at_rest(system: System, linear: Linearization) -> dict[sp.Symbol, sp.Expr]:
-    """The equilibrium with all rates zero."""
-    return {**linear.equilibrium.values, **{system.rate(q): system.zero for q in system.free}}
+    """The equilibrium with all rates zero, and the multipliers that hold it."""
+    rates = {system.rate(q): system.zero for q in system.free}
+    return {**linear.equilibrium.values, **linear.equilibrium.reactions, **rates}
+
+
+def reactions(system: System) -> Formula:
+    """Aᵀλ, the multiplier before it if there is just one."""
+    turned = Named(Quantity("constraint-matrix-transposed"), sp.ImmutableMatrix(system.constraint_matrix().T))
+    if len(system.multipliers) == 1:
+        return Times((Explicit(system.multipliers[0]), turned))
+    return MatrixTimes(turned, Named(Quantity("multipliers-vector"), column(system.multipliers)))
+
+
+def balanced(system: System, force: Named) -> Formula:
+    """f, and Aᵀλ where there are constraints."""
+    return Plus((Term(force), Term(reactions(system)))) if system.conditions else force
 
 
 def numbers(system: System) -> dict[sp.Symbol, sp.Expr]:

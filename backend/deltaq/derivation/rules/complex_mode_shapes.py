@@ -34,16 +34,16 @@ def apply(system: System, linear: Linearization, spectrum: Spectrum, number: int
 
 
 def _lines(system: System, linear: Linearization, mode: ComplexMode, root: Root, index: int) -> Iterator[Relation]:
-    real, imaginary = _law(system, linear, root)
+    real, imaginary = _law(linear, root)
     if len(root.symbols) == 1:
         shape = _part("mode", index, mode.real)
-        yield Relation((_there(system, root, MatrixTimes(real, shape)), zero(system)))
+        yield Relation((_there(system, root, MatrixTimes(real, shape)), zero(linear.mass.rows)))
         yield Relation((shape, Rounded(shape.value)), "≈")
         return
     u, w = _part("mode-real", index, mode.real), _part("mode-imaginary", index, mode.imaginary)
     first = Plus((Term(MatrixTimes(real, u)), minus(MatrixTimes(imaginary, w))))
     second = Plus((Term(MatrixTimes(real, w)), Term(MatrixTimes(imaginary, u))))
-    yield from (Relation((_there(system, root, law), zero(system))) for law in (first, second))
+    yield from (Relation((_there(system, root, law), zero(linear.mass.rows))) for law in (first, second))
     yield from (Relation((part, Rounded(part.value)), "≈") for part in (u, w))
 
 
@@ -55,9 +55,9 @@ def _there(system: System, root: Root, law: Formula) -> Inserted:
     return Inserted(Inserted(law, root.known), numbers(system))
 
 
-def _law(system: System, linear: Linearization, root: Root) -> tuple[Plus, Plus]:
+def _law(linear: Linearization, root: Root) -> tuple[Plus, Plus]:
     """The real and imaginary parts of λ²M₀ + λD₀ + K₀."""
-    mass, damping, stiffness = matrices(system, linear)
+    mass, damping, stiffness = matrices(linear)
     dragged = linear.is_damped
     if len(root.symbols) == 1:
         (exponent,) = root.symbols

@@ -32,7 +32,7 @@ from ..step import Relation, Step
 from ..system import System
 from . import complex_mode_shapes
 from ._roots import roots_of
-from ._shape import is_scalar, matrices, numbers, plain_value, zero
+from ._shape import matrices, numbers, plain_value, zero
 
 RULE = "eigenfrequencies"
 SHAPES = "mode-shapes"
@@ -45,23 +45,30 @@ NEAR = sp.Rational(1, 2**60)
 def apply(system: System, linear: Linearization, spectrum: Spectrum, number: int) -> Step:
     """The characteristic equation by its roots, and what they are in numbers."""
     if not spectrum.modes:
-        damped = Step(RULE, str(number), tuple(_damped(system, linear, spectrum)), (), _about("damped", number))
-        shapes = () if is_scalar(system) else (complex_mode_shapes.apply(system, linear, spectrum, number),)
+        lines = tuple(_damped(system, linear, spectrum))
+        damped = Step(RULE, str(number), lines, (), _about("damped", number), premises=_premises(linear, number))
+        shapes = () if linear.is_scalar else (complex_mode_shapes.apply(system, linear, spectrum, number),)
         return damped.with_substeps(*shapes)
     squares = tuple(mode.square for mode in spectrum.modes)
     found = symbolic_modes(system, linear)
-    symbols = [_root_symbol(system, square, index) for index, square in enumerate(squares, 1)]
+    symbols = [_root_symbol(system, linear, square, index) for index, square in enumerate(squares, 1)]
     known = dict(zip(symbols, map(_root, squares), strict=True))
     written = dict(zip(symbols, map(_root_of, squares, found.squares), strict=True)) if found else known
-    lines = [_characteristic(system, linear, written, squares, exact=found is not None)]
+    shown = [_characteristic(system, linear, written, squares, exact=found is not None)]
     for symbol in symbols:
         name = Explicit(symbol)
         if found:
-            lines.append(Relation((Inserted(name, written), Explicit(written[symbol]))))
+            shown.append(Relation((Inserted(name, written), Explicit(written[symbol]))))
         number_of = Inserted(Inserted(name, written), numbers(system))
-        lines.append(Relation((number_of, Rounded(known[symbol], _unit(symbol))), "≈"))
-    step = Step(RULE, str(number), tuple(lines), (), _about(_outcome(squares), number))
-    return step if is_scalar(system) else step.with_substeps(_shapes(system, linear, spectrum, found, number))
+        shown.append(Relation((number_of, Rounded(known[symbol], _unit(symbol))), "≈"))
+    about = _about(_outcome(squares), number)
+    step = Step(RULE, str(number), tuple(shown), (), about, premises=_premises(linear, number))
+    return step if linear.is_scalar else step.with_substeps(_shapes(system, linear, spectrum, found, number))
+
+
+def _premises(linear: Linearization, number: int) -> tuple[str, ...]:
+    """On constraints no quantity before has a name of its own for M and K."""
+    return (f"linearization:{number}",) if linear.tangent else ()
 
 
 def _about(outcome: str, number: int) -> dict[str, str]:
@@ -81,10 +88,10 @@ def _root_of(number: sp.Rational, square: sp.Expr) -> sp.Expr:
     return sp.sqrt(square if number >= 0 else sp.factor_terms(-square))
 
 
-def _root_symbol(system: System, square: sp.Rational, index: int) -> sp.Symbol:
+def _root_symbol(system: System, linear: Linearization, square: sp.Rational, index: int) -> sp.Symbol:
     """ωₖ for an oscillation, κₖ for what grows and fades as e^±κt."""
     letters = (system.omega.name,) if square >= 0 else ("kappa", "sigma", "alpha")
-    number = 0 if is_scalar(system) else index
+    number = 0 if linear.is_scalar else index
     return system.fresh(*(f"{letter}_{number}" for letter in letters), f"{letters[0]}_{number}_0")
 
 
@@ -96,12 +103,12 @@ def _characteristic(
     system: System, linear: Linearization, known: Values, squares: tuple[sp.Rational, ...], *, exact: bool
 ) -> Relation:
     """det(K₀ − ω²M₀) = det M₀ · Π (ωₖ² − ω²)"""
-    mass, _, stiffness = matrices(system, linear)
+    mass, _, stiffness = matrices(linear)
     omega = system.omega
     law = Plus((Term(stiffness), minus(Times((Explicit(omega**2), mass)))))
     roots = [symbol**2 if square >= 0 else -(symbol**2) for symbol, square in zip(known, squares, strict=True)]
-    product = Times((_determinant(system, mass), *(Explicit(root - omega**2) for root in roots)))
-    return _compared(system, _determinant(system, law), product, known, exact=exact)
+    product = Times((_determinant(linear, mass), *(Explicit(root - omega**2) for root in roots)))
+    return _compared(system, _determinant(linear, law), product, known, exact=exact)
 
 
 def _compared(system: System, law: Formula, product: Formula, known: Values, *, exact: bool) -> Relation:
@@ -112,22 +119,22 @@ def _compared(system: System, law: Formula, product: Formula, known: Values, *, 
     return Relation((Inserted(law, numbers(system)), Inserted(split, numbers(system))))
 
 
-def _determinant(system: System, of: Formula) -> Formula:
-    return of if is_scalar(system) else Determinant(of)
+def _determinant(linear: Linearization, of: Formula) -> Formula:
+    return of if linear.is_scalar else Determinant(of)
 
 
 def _damped(system: System, linear: Linearization, spectrum: Spectrum) -> Iterator[Relation]:
     """The roots of det(λ²M₀ + λD₀ + K₀): −δ ± iω in pairs, or real."""
-    mass, damping, stiffness = matrices(system, linear)
+    mass, damping, stiffness = matrices(linear)
     exponent = system.exponent
     drag = (Term(Times((Explicit(exponent), damping))),) if linear.is_damped else ()
     law = Plus((Term(Times((Explicit(exponent**2), mass))), *drag, Term(stiffness)))
     roots = roots_of(system, spectrum)
     known = {symbol: number for root in roots for symbol, number in root.known.items()}
-    factors = [_determinant(system, mass), *(Explicit(root.factor(exponent)) for root in roots)]
+    factors = [_determinant(linear, mass), *(Explicit(root.factor(exponent)) for root in roots)]
     written = _written(system, linear, known)
     exact = written is not None
-    yield _compared(system, _determinant(system, law), Times(tuple(factors)), written or known, exact=exact)
+    yield _compared(system, _determinant(linear, law), Times(tuple(factors)), written or known, exact=exact)
     for symbol, root in known.items():
         name = Inserted(Explicit(symbol), written or known)
         if written:
@@ -153,16 +160,16 @@ def _shapes(
     system: System, linear: Linearization, spectrum: Spectrum, found: SymbolicModes | None, number: int
 ) -> Step:
     """(K₀ − ωₖ²M₀) aₖ = 0 and aₖ."""
-    mass, _, stiffness = matrices(system, linear)
+    mass, _, stiffness = matrices(linear)
     lines: list[Relation] = []
     for index, mode in enumerate(spectrum.modes, 1):
-        symbol = _root_symbol(system, mode.square, index)
+        symbol = _root_symbol(system, linear, mode.square, index)
         shape = found.shapes[index - 1] if found else sp.ImmutableMatrix([[part] for part in mode.shape])
         root = _root_of(mode.square, found.squares[index - 1]) if found else _root(mode.square)
         name = Named(Quantity("mode", str(index)), plain_value(shape))
         square = Explicit(symbol**2)
         moved = Term(Times((square, mass)), (), -1 if mode.square >= 0 else 1)
         law = Inserted(MatrixTimes(Plus((Term(stiffness), moved)), name), {symbol: root})
-        lines.append(Relation((law if found else Inserted(law, numbers(system)), zero(system))))
+        lines.append(Relation((law if found else Inserted(law, numbers(system)), zero(linear.mass.rows))))
         lines.append(Relation((name, Explicit(shape) if found else Rounded(shape)), "=" if found else "≈"))
     return Step(SHAPES, str(number), tuple(lines), (), {"number": str(number)})

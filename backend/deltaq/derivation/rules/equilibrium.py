@@ -6,14 +6,17 @@ Introduction to the Theory of Stability, §2.3 and §4.2.
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+
 import sympy as sp
 
-from ..formula import AtEquilibrium, Explicit, Inserted, Named, Quantity, Rounded
+from ...mechanics.conditions import Condition
+from ..formula import AtEquilibrium, Explicit, Formula, Inserted, Named, Quantity, Rounded
 from ..linearization import Linearization
 from ..matrix_form import forces_at_rest
 from ..step import Relation, Step
 from ..system import System
-from ._shape import at_rest, numbers, shaped, zero
+from ._shape import at_rest, balanced, numbers, shaped, zero
 
 RULE = "equilibrium"
 
@@ -21,15 +24,36 @@ RULE = "equilibrium"
 def apply(system: System, linear: Linearization, number: int) -> Step:
     """Where it is, the proof that nothing acts there, and how it behaves."""
     # The rates first: a damper whose ends meet has no direction there, but its force is zero while nothing moves.
-    force = AtEquilibrium(shaped(system, "forcing", "vector", forces_at_rest(system)), at_rest(system, linear))
-    proof = force if linear.equilibrium.exact else Inserted(force, numbers(system))
+    force = balanced(system, shaped("forcing", "vector", forces_at_rest(system)))
+    laws = (force, *map(system.named_condition, system.conditions))
+    proofs = (Relation((_there(system, linear, law), zero(rows))) for law, rows in _rows(system, laws))
     places = tuple(_place(system, linear, q) for q in system.free if system.q(q) in linear.equilibrium.values)
     free = linear.equilibrium.free
     about = {"outcome": _outcome(linear, free), "number": str(number), "coordinate": ", ".join(free)}
     if linear.verdict.derivative:
         about["derivative"] = str(linear.verdict.derivative)
         about["degree"] = str(linear.verdict.derivative + 1)
-    return Step(RULE, str(number), (*places, Relation((proof, zero(system)))), (), about)
+    held = tuple(_multiplier(system, linear, each) for each in system.conditions)
+    return Step(RULE, str(number), (*places, *held, *proofs), (), about)
+
+
+def _rows(system: System, laws: tuple[Formula, ...]) -> Iterator[tuple[Formula, int]]:
+    """The forces have as many as there are coordinates, a constraint has one."""
+    return ((law, len(system.free) if place == 0 else 1) for place, law in enumerate(laws))
+
+
+def _there(system: System, linear: Linearization, law: Formula) -> Formula:
+    there = AtEquilibrium(law, at_rest(system, linear))
+    return there if linear.equilibrium.exact else Inserted(there, numbers(system))
+
+
+def _multiplier(system: System, linear: Linearization, condition: Condition) -> Relation:
+    symbol = system.multiplier(condition)
+    value = linear.equilibrium.reactions[symbol]
+    name = Inserted(Explicit(symbol), {symbol: value})
+    if linear.equilibrium.exact:
+        return Relation((name, Explicit(value)))
+    return Relation((name, Rounded(value)), "≈")
 
 
 def _place(system: System, linear: Linearization, coordinate: str) -> Relation:

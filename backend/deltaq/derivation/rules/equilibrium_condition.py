@@ -1,34 +1,51 @@
 """Equilibrium: a system at rest stays at rest if and only if no generalized force acts on it there, f(q₀, 0) = 0.
 
-Source: Goldstein, Poole, Safko, Classical Mechanics, 3rd ed., §6.1.
+With constraints their reactions count: f(q₀, 0) + A(q₀)ᵀλ₀ = 0 for some multipliers, and the constraints are kept.
+Source: Goldstein, Poole, Safko, Classical Mechanics, 3rd ed., §6.1; Lanczos, The Variational Principles of Mechanics,
+ch. III.3.
 """
 
 from __future__ import annotations
 
+from ..bound_equilibria import balance
 from ..equilibria import free_coordinates
-from ..formula import Explicit, Substituted
+from ..formula import Equation, Explicit, Substituted
 from ..friction import holds_everywhere
 from ..matrix_form import forces_at_rest, forcing
 from ..optional import search_of
 from ..step import Relation, Step
 from ..system import System
-from ._shape import plain_value, shaped
+from ._shape import balanced, plain_value, shaped, zero
 
 RULE = "equilibrium-condition"
 
 
 def apply(system: System) -> Step:
     """What acts at rest, and whether it can vanish."""
-    force = shaped(system, "forcing", "vector", forcing(system))
+    force = shaped("forcing", "vector", forcing(system))
     at_rest = {system.rate(q): system.zero for q in system.free}
-    line = Relation((Substituted(force, at_rest), Explicit(plain_value(forces_at_rest(system)))))
     free = free_coordinates(system)
-    return Step(RULE, "", (line,), (), {"outcome": _outcome(system), "coordinate": ", ".join(free)})
+    about = {"outcome": _outcome(system), "coordinate": ", ".join(free)}
+    if not system.conditions:
+        line = Relation((Substituted(force, at_rest), Explicit(plain_value(forces_at_rest(system)))))
+        return Step(RULE, "", (line,), (), about)
+    acting = Substituted(balanced(system, force), at_rest)
+    rows = zero(len(system.free))
+    lines = (
+        Relation((Equation(acting, rows), Equation(Explicit(balance(system)), rows)), "⇔"),
+        *(
+            Relation((Equation(name, zero(1)), Equation(Explicit(name.value), zero(1))), "⇔")
+            for name in map(system.named_condition, system.conditions)
+        ),
+    )
+    return Step(RULE, "", lines, system.constraint_sources, about)
 
 
 def _outcome(system: System) -> str:
     free = free_coordinates(system)
     known = search_of(system)
+    if system.conditions:
+        return _outcome_with_constraints(system)
     if not (known and known.found):
         if holds_everywhere(system):
             return "held"
@@ -38,3 +55,10 @@ def _outcome(system: System) -> str:
     if len(free) == len(system.free):
         return "everywhere"
     return "free" if free else "text"
+
+
+def _outcome_with_constraints(system: System) -> str:
+    known = search_of(system)
+    if known and known.found:
+        return "constrained"
+    return "constrained-none" if known and known.complete and not known.ranges else "constrained-not-found"

@@ -28,7 +28,7 @@ def apply(system: System, linear: Linearization, band: Band, number: int) -> Ste
     ends = [(min(forces, key=lambda force: _gap(system, force, end)), end) for end in (band.low, band.high)]
     for force, end in sorted(ends, key=lambda each: forces.index(each[0])):
         there = (Substituted if band.exact else AtEquilibrium)(Explicit(force), {q: end})
-        lines.append(Relation((there if band.exact else Inserted(there, numbers(system)), zero(system))))
+        lines.append(Relation((there if band.exact else Inserted(there, numbers(system)), zero(1))))
     return Step(RULE, str(number), tuple(lines), (), {"number": str(number)}, premises=(f"equilibrium:{number}",))
 
 

@@ -7,12 +7,16 @@ Source: Davenport, Siret, Tournier, Computer Algebra (1988), ch. 2, on the swell
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+from types import MappingProxyType
+
 from ...vocabulary import Missing, OptionalPart
 from ..step import Step
 
 RULE = "left-out"
+REASONS: Mapping[Missing, str] = MappingProxyType({"constraints": "-constrained", "rates": "-rates"})
 
 
 def apply(part: OptionalPart, why: Missing) -> Step:
     """A step of words only."""
-    return Step(RULE, part, (), (), {"outcome": f"{part}-constrained" if why == "constraints" else part})
+    return Step(RULE, part, (), (), {"outcome": f"{part}{REASONS.get(why, '')}"})

@@ -19,8 +19,8 @@ RULE = "matrix-form"
 def apply(system: System) -> Step:
     """All equations in one line, and M and f written out."""
     accelerations = column(system.acceleration(q) for q in system.free)
-    mass = shaped(system, "mass", "matrix", mass_matrix(system))
-    force = shaped(system, "forcing", "vector", forcing(system))
+    mass = shaped("mass", "matrix", mass_matrix(system))
+    force = shaped("forcing", "vector", forcing(system))
     second = Named(Quantity("accelerations-vector"), plain_value(accelerations))
     laws = [_law(system, q) for q in system.free]
     outside: list[Formula] = [_outside(system, q) for q in system.free]

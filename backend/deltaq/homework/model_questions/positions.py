@@ -58,6 +58,8 @@ ANY = re.compile(r"\b(?:beliebig|arbitrary|any|frei|free)\b")
 def asked(solution: Solution) -> tuple[Equilibrium, ...]:
     """The equilibria, if all are known, isolated but for coordinates that may have any value, and few enough."""
     model = solution.model
+    if model.conditions:
+        return ()  # multipliers would belong to them
     search = search_of(model)
     if search is None or not search.complete or not 0 < search.count == len(search.found) <= MOST:
         return ()
