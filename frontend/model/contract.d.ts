@@ -2266,6 +2266,30 @@ export interface components {
             step: string;
         };
         /**
+         * ConstraintFormula
+         * @description What belongs to one constraint.
+         */
+        ConstraintFormula: {
+            /**
+             * Plain
+             * @example m*l^2*dot(phi)^2/2
+             */
+            plain: string;
+            /** Latex */
+            latex: string;
+            /**
+             * Spoken
+             * @description the same in words, to be read aloud
+             * @default
+             */
+            spoken: string;
+            /**
+             * Constraint
+             * @example rod
+             */
+            constraint: string;
+        };
+        /**
          * ConstraintResult
          * @description A constraint, and the reaction that keeps it: λ ∂g/∂q, or λ a where a·q̇ + b = 0 is kept.
          */
@@ -2309,7 +2333,7 @@ export interface components {
             name: string;
             gap: components["schemas"]["Formula"];
             restitution: components["schemas"]["Formula"];
-            /** @description null where it would be too long, or constraints share the impulse */
+            /** @description null where it would be too long */
             impact: components["schemas"]["ImpactResult"] | null;
         };
         /**
@@ -4526,7 +4550,7 @@ export interface components {
             impulse: components["schemas"]["Formula"];
             /**
              * Momentum Jumps
-             * @description Λ ∂g/∂q of each coordinate that changes the gap
+             * @description Λ ∂g/∂q of each coordinate that changes the gap, and what constraints add
              */
             momentum_jumps: components["schemas"]["CoordinateFormula"][];
             /**
@@ -4536,6 +4560,12 @@ export interface components {
             rate_jumps: components["schemas"]["CoordinateFormula"][];
             /** @description E before less E behind; negative where a moving contact feeds energy in */
             energy_loss: components["schemas"]["Formula"];
+            /**
+             * Constraint Impulses
+             * @description by which constraints answer; momenta then jump by Λ ∂g/∂q and these times a
+             * @default []
+             */
+            constraint_impulses: components["schemas"]["ConstraintFormula"][];
         };
         /**
          * Inequality

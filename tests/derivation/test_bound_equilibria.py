@@ -179,15 +179,13 @@ def inertia(angles: Any, slopes: Any) -> float:
     return float(mu * b * (centre @ centre) + turning)
 
 
-def test_dependent_constraints_are_said_to_leave_multipliers_open() -> None:
-    """x² + y² = l² and its double: rank one everywhere."""
-    twice = {"kind": "equation", "name": "again", "equation": "2*x^2 + 2*y^2 = 2*l^2"}
-    document: dict[str, Any] = write_scene(particle([CIRCLE]))
-    document["coordinates"].append({"name": "z", "value": 0.1})
-    document["bodies"].append({"name": "other", "kind": "particle", "mass": "m", "position": ["z", "0"]})
-    document["constraints"].append(twice)
-    search = found(System(read_scene(document)))
-    assert (search.found, search.complete, search.left_out) == ((), False, "singular")
+def test_a_parallelogram_has_places_without_unique_multipliers() -> None:
+    """Flat, its loops depend on one another: that is said. Hanging, ω² = g (a + b)/(⅔ a² + a b) by the one angle."""
+    system = System(with_values("four-bar", a=0.5, b=0.9, c=0.5, s=0.9))
+    assert (found(system).complete, found(system).left_out) == (False, "singular")
+    hanging = [each for each in linearizations(system) if abs(numbers(system, each)["phi1"] + math.pi / 2) < 1e-9]
+    (below,) = hanging
+    assert squares(below)[0] == pytest.approx(9.81 * (0.5 + 0.9) / (2 / 3 * 0.5**2 + 0.5 * 0.9), rel=1e-12)
 
 
 def test_a_level_line_is_a_family_of_equilibria() -> None:
@@ -207,7 +205,7 @@ def test_a_slope_has_no_rest() -> None:
 def test_answers_have_multipliers_and_shapes_in_all_coordinates() -> None:
     answer = derive_request({"scene": "slider-crank", "lang": "en"})["result"]
     stable = answer["equilibria"][0]  # type: ignore[index]
-    assert {name: each["plain"] for name, each in stable["multipliers"].items()} == {"N": "0", "H": "-k*r"}
+    assert {name: each["plain"] for name, each in stable["multipliers"].items()} == {"N": "0", "H": "-r*k"}
     (mode,) = stable["modes"]
     assert set(mode["shape"]) == {"phi", "psi", "x"}
     assert max(map(abs, mode["shape"].values())) == 1.0

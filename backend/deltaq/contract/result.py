@@ -136,13 +136,24 @@ class ConstraintResult(Answer):
     forces: tuple[CoordinateFormula, ...] = Field(description="the generalized reactions, by coordinate")
 
 
+class ConstraintFormula(Formula):
+    """What belongs to one constraint."""
+
+    constraint: str = Field(examples=["rod"])
+
+
 class ImpactResult(Answer):
     """What an impact does: the momenta jump by Λ ∂g/∂q, such that ġ⁺ = −e ġ⁻. Rates are those before it."""
 
     impulse: Formula = Field(description="Λ")
-    momentum_jumps: tuple[CoordinateFormula, ...] = Field(description="Λ ∂g/∂q of each coordinate that changes the gap")
+    momentum_jumps: tuple[CoordinateFormula, ...] = Field(
+        description="Λ ∂g/∂q of each coordinate that changes the gap, and what constraints add"
+    )
     rate_jumps: tuple[CoordinateFormula, ...] = Field(description="q̇ behind the impact less q̇ before it")
     energy_loss: Formula = Field(description="E before less E behind; negative where a moving contact feeds energy in")
+    constraint_impulses: tuple[ConstraintFormula, ...] = Field(
+        (), description="by which constraints answer; momenta then jump by Λ ∂g/∂q and these times a"
+    )
 
 
 class ContactResult(Answer):
@@ -151,7 +162,7 @@ class ContactResult(Answer):
     name: str = Field(examples=["impact"])
     gap: Formula
     restitution: Formula
-    impact: ImpactResult | None = Field(description="null where it would be too long, or constraints share the impulse")
+    impact: ImpactResult | None = Field(description="null where it would be too long")
 
 
 class StickingResult(Answer):

@@ -21,6 +21,7 @@ from .rules import (
     guide,
     guided_position,
     impact_law,
+    impact_system,
     lagrange_equation,
     multiplier,
     position,
@@ -136,6 +137,8 @@ def contact(system: System) -> Iterator[Step]:
     """Impacts at contacts that close, and how long friction holds: what happens between stretches of the motion."""
     for event in bouncing(system):
         yield contact_gap.apply(system, event)
+        if system.conditions:
+            yield impact_system.apply(system, event)
         found = impact(system, event)
         if found is not None:
             yield impact_law.apply(system, event, found)

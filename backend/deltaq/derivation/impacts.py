@@ -1,12 +1,14 @@
 """What an impact does, in closed form: with the gap g(q, t) the momenta jump along its gradient, M Δq̇ = Λ ∂g/∂q.
 
-From ġ⁺ = −e ġ⁻ follows Λ = −(1 + e) ġ⁻/(∂g/∂q M⁻¹ ∂g/∂qᵀ).
+From ġ⁺ = −e ġ⁻ follows Λ = −(1 + e) ġ⁻/(∂g/∂q M⁻¹ ∂g/∂qᵀ). Constraints answer with impulses Λ_c of their own, such that
+A Δq̇ = 0: M Δq̇ = Λ ∂g/∂q + AᵀΛ_c. With R = (A M⁻¹Aᵀ)⁻¹A M⁻¹ they are −R ∂g/∂q Λ, and P = M⁻¹ − M⁻¹AᵀR stands for M⁻¹.
 Source: Pfeiffer, Glocker, Multibody Dynamics with Unilateral Contacts, ch. 4 and 8.
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
+from itertools import combinations
 
 import sympy as sp
 
@@ -15,18 +17,27 @@ from ..language.memory import cached_method
 from ..mechanics.contributions import Friction
 from ..mechanics.event import Event
 from .matrix_form import forcing, mass_matrix
-from .multipliers import LONGEST, MOST_COORDINATES, MOST_GIVEN, inverse_of
+from .multipliers import LONGEST, MOST_COORDINATES, MOST_GIVEN, MOST_LEFT, inverse_of, simplified
 from .system import System
 
 
 @dataclass(frozen=True)
 class Impact:
-    """Λ, the jumps Δpᵢ and Δq̇ᵢ by coordinate, and the kinetic energy that is lost."""
+    """Λ, the jumps Δpᵢ and Δq̇ᵢ by coordinate, the kinetic energy that is lost, and the impulses of constraints."""
 
     impulse: sp.Expr
     momenta: dict[str, sp.Expr]
     rates: dict[str, sp.Expr]
     loss: sp.Expr
+    answers: dict[str, sp.Expr] = field(default_factory=dict)
+
+
+@dataclass(frozen=True)
+class _Mobility:
+    """What an impulse along a row w does: Δq̇ = P wᵀ Λ, which constraints answer with the impulses −R wᵀ Λ."""
+
+    jumps: sp.ImmutableMatrix
+    answers: sp.ImmutableMatrix
 
 
 @dataclass(frozen=True)
@@ -78,23 +89,73 @@ def restitution(system: System, event: Event) -> sp.Expr:
 
 @cached_method
 def impact(system: System, event: Event) -> Impact | None:
-    """None where constraints would share the impulse, or the jumps would be too long to be read."""
-    mass, along = mass_matrix(system), slopes(system, event)
-    if system.conditions or len(system.free) > MOST_COORDINATES or not along:
-        return None
-    if sum(map(size, mass)) > MOST_GIVEN or (inverse := inverse_of(system, mass)) is None:
+    """None where the contact has no direction that the constraints leave it, or the jumps would be too long to read."""
+    along, mobility = slopes(system, event), _mobility(system)
+    if mobility is None or not along:
         return None
     row = sp.ImmutableMatrix([along.get(q, system.zero) for q in system.free])
-    share = system.display((row.T * inverse * row)[0])
+    share = system.display((row.T * mobility.jumps * row)[0])
+    if share == 0:
+        return None
     rate, e = gap_rate(system, event), restitution(system, event)
-    impulse = system.display(-(1 + e) * rate / share)
-    momenta = {q: system.display(impulse * slope) for q, slope in along.items()}
-    moved = (system.display(part * impulse) for part in inverse * row)
+    impulse = simplified(system, -(1 + e) * rate / share)
+    answers = [simplified(system, -part * impulse) for part in mobility.answers * row]
+    momenta = _momentum_jumps(system, along, impulse, answers)
+    moved = (simplified(system, part * impulse) for part in mobility.jumps * row)
     rates = {q: jump for q, jump in zip(system.free, moved, strict=True) if jump != 0}
-    loss = system.display(-impulse * ((1 - e) * rate / 2 - moving_term(system, event)))
+    fed = [answer * system.moving_term(each) for answer, each in zip(answers, system.conditions, strict=True)]
+    loss = simplified(system, -impulse * ((1 - e) * rate / 2 - moving_term(system, event)) + sp.Add(*fed))
     if sum(map(size, (*momenta.values(), *rates.values(), loss))) > LONGEST:
         return None
-    return Impact(impulse, momenta, rates, loss)
+    named = {each.source: answer for each, answer in zip(system.conditions, answers, strict=True)}
+    return Impact(impulse, momenta, rates, loss, named)
+
+
+@cached_method
+def _mobility(system: System) -> _Mobility | None:
+    """P and R; M⁻¹ and nothing without constraints. None where they are too long, or constraints are dependent."""
+    mass, rows = mass_matrix(system), system.constraint_matrix()
+    if len(system.free) > MOST_COORDINATES or sum(map(size, (*mass, *rows))) > MOST_GIVEN:
+        return None
+    inverse = inverse_of(system, mass)
+    if inverse is None or not system.conditions:
+        return None if inverse is None else _Mobility(inverse, sp.ImmutableMatrix(sp.zeros(0, len(system.free))))
+    turned = system.display(sp.ImmutableMatrix(rows * inverse))
+    held = inverse_of(system, system.display(sp.ImmutableMatrix(turned * rows.T)))
+    if held is None or sum(map(size, held)) > MOST_LEFT:
+        return None
+    answers = system.display(sp.ImmutableMatrix(held * turned))
+    return _Mobility(system.display(sp.ImmutableMatrix(inverse - turned.T * answers)), answers)
+
+
+def _momentum_jumps(
+    system: System, along: dict[str, sp.Expr], impulse: sp.Expr, answers: list[sp.Expr]
+) -> dict[str, sp.Expr]:
+    """Λ ∂g/∂qᵢ + Σ Λ_c aᵢ of the coordinates that the contact or a constraint acts on."""
+    shares = {q: [impulse * along.get(q, system.zero)] for q in system.free}
+    for answer, condition in zip(answers, system.conditions, strict=True):
+        for q in system.bound(condition):
+            shares[q].append(answer * system.coefficient(condition, q))
+    found = {q: simplified(system, sp.Add(*parts)) for q, parts in shares.items()}
+    return {q: jump for q, jump in found.items() if q in along or jump != 0}
+
+
+@cached_method
+def kept_rates(system: System) -> dict[sp.Symbol, sp.Expr]:
+    """As many rates by the others as there are constraints: what A q̇ + b = 0 leaves of them."""
+    rows, drift = system.constraint_matrix(), [system.moving_term(each) for each in system.conditions]
+    for chosen in combinations(reversed(range(len(system.free))), rows.rows):
+        square = rows.extract(list(range(rows.rows)), list(chosen))
+        determinant = system.display(square.det(method="berkowitz"))
+        if determinant == 0 or system.is_zero(determinant):
+            continue
+        others = [k for k in range(len(system.free)) if k not in chosen]
+        rates = sp.Matrix([system.rate(system.free[k]) for k in others])
+        right = rows.extract(list(range(rows.rows)), others) * rates + sp.Matrix(drift)
+        found = -(square.adjugate() * right) / determinant
+        names = (system.rate(system.free[k]) for k in chosen)
+        return {rate: system.display(value) for rate, value in zip(names, found, strict=True)}
+    return {}
 
 
 def after(system: System, found: Impact) -> dict[sp.Symbol, sp.Expr]:

@@ -13,11 +13,13 @@ import sympy as sp
 
 from ..language.display import size
 from ..language.memory import cached_method
+from ..language.operations import operations
 from .matrix_form import forcing, mass_matrix
 from .system import System
 
 MOST_COORDINATES, MOST_CONSTRAINTS = 4, 2
 LONGEST = 400  # parts of an expression that is still read
+LEAST_CANCELLED, MOST_CANCELLED = 12, 200  # parts of an expression whose common factors are cancelled
 MOST_GIVEN, MOST_LEFT = 150, 120  # parts of the laws, and of the system for λ: solving it multiplies them
 
 
@@ -74,4 +76,21 @@ def _solved(system: System, matrix: sp.ImmutableMatrix, rest: sp.ImmutableMatrix
     if determinant == 0:
         return None
     found = -(matrix.adjugate() * rest)
-    return {each: system.display(value / determinant) for each, value in zip(system.multipliers, found, strict=True)}
+    return {
+        each: simplified(system, value / determinant) for each, value in zip(system.multipliers, found, strict=True)
+    }
+
+
+def simplified(system: System, value: sp.Expr) -> sp.Expr:
+    """The display form, or the shorter one that cancelling common factors of numerator and denominator leads to.
+
+    Roots of the constraints are cancelled as well: x²/√(x² + y²)² + y²/(x² + y²) is 1.
+    """
+    shown = system.display(value)
+    if not MOST_CANCELLED >= size(shown) > LEAST_CANCELLED:
+        return shown
+    try:
+        cancelled = sp.cancel(sp.together(shown))
+    except sp.PolynomialError:
+        return shown
+    return min((shown, system.display(cancelled), system.display(sp.factor_terms(cancelled))), key=operations)

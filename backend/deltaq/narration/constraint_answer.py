@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from ..derivation.impacts import Contact, Sticking
+from ..derivation.impacts import Contact, Impact, Sticking
 from ..derivation.released import Release
 from ..derivation.result import Bound
 from ..mechanics.release import held
@@ -60,8 +60,14 @@ def contact(found: Contact, write: ExpressionWriter) -> Document:
             "momentum_jumps": [{"coordinate": q, **write.written(jump)} for q, jump in impact.momenta.items()],
             "rate_jumps": [{"coordinate": q, **write.written(jump)} for q, jump in impact.rates.items()],
             "energy_loss": write.written(impact.loss),
+            **({"constraint_impulses": _answers(impact, write)} if impact.answers else {}),
         },
     }
+
+
+def _answers(impact: Impact, write: ExpressionWriter) -> list[Document]:
+    """The impulses by which constraints answer."""
+    return [{"constraint": name, **write.written(value)} for name, value in impact.answers.items()]
 
 
 def sticking(found: Sticking, write: ExpressionWriter) -> Document:

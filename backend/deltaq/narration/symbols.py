@@ -46,6 +46,7 @@ SYMBOLS: Mapping[str, tuple[str, str]] = {
     "gap": ("g_{{N}}{of}", ""),
     "gap-rate-behind": (r"\dot g_{{N}}^{{+}}", ""),
     "impulse": (r"\Lambda{of}", ""),
+    "constraint-impulse": (r"\Lambda{of}", "constraint-{name}"),
     "momentum-jump": (r"\Delta p_{{{i}}}", ""),
     "rate-jump": (r"\Delta\dot{{{q}}}", ""),
     "impact-loss": (r"E^{{-}} - E^{{+}}", ""),
