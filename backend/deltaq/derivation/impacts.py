@@ -93,8 +93,8 @@ def impact(system: System, event: Event) -> Impact | None:
     along, mobility = slopes(system, event), _mobility(system)
     if mobility is None or not along:
         return None
-    row = sp.ImmutableMatrix([along.get(q, system.zero) for q in system.free])
-    share = system.display((row.T * mobility.jumps * row)[0])
+    row = _row(system, event)
+    share = _share(system, event, mobility)
     if share == 0:
         return None
     rate, e = gap_rate(system, event), restitution(system, event)
@@ -109,6 +109,26 @@ def impact(system: System, event: Event) -> Impact | None:
         return None
     named = {each.source: answer for each, answer in zip(system.conditions, answers, strict=True)}
     return Impact(impulse, momenta, rates, loss, named)
+
+
+def _row(system: System, event: Event) -> sp.ImmutableMatrix:
+    """∂g/∂q as a column."""
+    along = slopes(system, event)
+    return sp.ImmutableMatrix([along.get(q, system.zero) for q in system.free])
+
+
+def _share(system: System, event: Event, mobility: _Mobility) -> sp.Expr:
+    """How far the gap opens for each unit of impulse."""
+    row = _row(system, event)
+    return system.display((row.T * mobility.jumps * row)[0])
+
+
+def effective_mass(system: System, event: Event) -> sp.Expr:
+    """What an impulse at the contact sets in motion: 1/(∂g/∂q M⁻¹ ∂g/∂qᵀ) of a contact that has an impact."""
+    mobility = _mobility(system)
+    if mobility is None:
+        raise ValueError(f"the impact at {event.name} is too long")
+    return 1 / _share(system, event, mobility)
 
 
 @cached_method

@@ -11,11 +11,13 @@ import sympy as sp
 from ..derivation.calculus import V
 from ..derivation.conservation import cyclic, jacobi_energy, jacobi_energy_rate
 from ..derivation.generator import Symmetry
+from ..derivation.impacts import bouncing, effective_mass, gap_rate, impact, moving_term, restitution, slopes
 from ..derivation.linearization import linearizations
 from ..derivation.optional import symmetries_of
 from ..derivation.system import System
 from ..language.canonical import display
 from ..language.memory import cached_method
+from ..mechanics.event import Event
 
 
 @dataclass(frozen=True, eq=False)
@@ -123,6 +125,53 @@ class Solution(System):
         """Those that hold for all parameters, besides cyclic coordinates and time, by their number."""
         found = enumerate(symmetries_of(self.model), 1)
         return {str(number): each for number, each in found if not each.conditions}
+
+    @cached_property
+    def bounces(self) -> tuple[str, ...]:
+        """The contacts whose impacts can be asked for: not shared by constraints, and short."""
+        if self.conditions:
+            return ()
+        return tuple(each.name for each in bouncing(self.model) if impact(self.model, each) is not None)
+
+    def _contact(self, name: str) -> Event:
+        return next(event for event in self.scene.events if event.name == name)
+
+    def restitution_of(self, contact: str) -> sp.Expr:
+        """e"""
+        return restitution(self.model, self._contact(contact))
+
+    def closing_factor(self, contact: str) -> sp.Expr:
+        """1 + e: how many times the impulse is that of an impact that only stops."""
+        return 1 + self.restitution_of(contact)
+
+    def closing_rate(self, contact: str) -> sp.Expr:
+        """ġ before the impact."""
+        return gap_rate(self.model, self._contact(contact))
+
+    def contact_drift(self, contact: str) -> sp.Expr:
+        """∂g/∂t"""
+        return moving_term(self.model, self._contact(contact))
+
+    def gap_slope(self, contact: str, coordinate: str) -> sp.Expr:
+        """∂g/∂qᵢ"""
+        return slopes(self.model, self._contact(contact)).get(coordinate, self.zero)
+
+    def effective_mass(self, contact: str) -> sp.Expr:
+        """1/(∂g/∂q M⁻¹ ∂g/∂qᵀ), what the contact has to stop."""
+        return effective_mass(self.model, self._contact(contact))
+
+    def impact_impulse(self, contact: str) -> sp.Expr:
+        """Λ = −(1 + e) ġ/(∂g/∂q M⁻¹ ∂g/∂qᵀ)"""
+        return -self.closing_factor(contact) * self.closing_rate(contact) * self.effective_mass(contact)
+
+    def momentum_behind(self, contact: str, coordinate: str) -> sp.Expr:
+        """pᵢ⁺ = pᵢ + Λ ∂g/∂qᵢ"""
+        return self.momentum(coordinate) + self.impact_impulse(contact) * self.gap_slope(contact, coordinate)
+
+    def impact_loss(self, contact: str) -> sp.Expr:
+        """E⁻ − E⁺ = −Λ ((1 − e) ġ/2 − ∂g/∂t)"""
+        mean = (1 - self.restitution_of(contact)) * self.closing_rate(contact) / 2
+        return -self.impact_impulse(contact) * (mean - self.contact_drift(contact))
 
     @property
     def integrals(self) -> tuple[sp.Expr, ...]:

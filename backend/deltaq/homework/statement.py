@@ -46,7 +46,8 @@ def _blocks(task: Task, workbook: Workbook, language: str) -> list[Document]:
 def steps_of(task: Task, workbook: Workbook) -> list[str]:
     """Ids of the steps that may show the answer, the likeliest first."""
     conserved = task.quantity.kind == "conserved" and workbook.solution.conserved_of[int(task.subject) - 1]
-    return [step.format(subject=task.subject, cyclic=conserved or "") for step in task.quantity.steps]
+    names = {"subject": task.subject, "cyclic": conserved or "", "contact": "".join(workbook.solution.bounces[:1])}
+    return [step.format(**names) for step in task.quantity.steps]
 
 
 def _needs(task: Task, workbook: Workbook) -> list[str]:

@@ -77,6 +77,11 @@ def reaction_of(solution: Solution, name: str) -> sp.Expr:
     return found.values[solution.multiplier(condition)]
 
 
+def struck(solution: Solution) -> list[str]:
+    """Each coordinate whose momentum jumps at the first contact."""
+    return [q for q in solution.free for contact in solution.bounces[:1] if solution.gap_slope(contact, q) != 0]
+
+
 def numbered(solution: Solution) -> list[str]:
     """Each conserved quantity, by its number."""
     return [str(n) for n, _ in enumerate(solution.conserved_of, 1)]

@@ -8,6 +8,7 @@ from types import MappingProxyType
 import sympy as sp
 
 from ..derivation.generator import Generator
+from ..derivation.impacts import gap, restitution
 from ..derivation.optional import motions_of
 from ..language.latex_printer import Typography, latex
 from ..narration.catalog import text
@@ -125,6 +126,18 @@ def _bound(task: Task, workbook: Workbook, _language: str) -> Texts:
     }
 
 
+def _impact(task: Task, workbook: Workbook, language: str) -> Texts:
+    """The contact: what happens at it, its gap and its restitution."""
+    solution, typography = workbook.solution, Typography(workbook.scene.names)
+    name = task.subject if task.subject in solution.bounces else solution.bounces[0]
+    event = next(event for event in workbook.scene.events if event.name == name)
+    return {
+        "event": label(name, workbook.scene, language),
+        "gap": formula(rf"g_N = {latex(gap(solution.model, event), typography)}"),
+        "restitution": formula(latex(restitution(solution.model, event), typography)),
+    }
+
+
 TOLD: Mapping[str, Callable[[Task, Workbook, str], Texts]] = MappingProxyType(
     {
         "linearized": _rest,
@@ -135,6 +148,9 @@ TOLD: Mapping[str, Callable[[Task, Workbook, str], Texts]] = MappingProxyType(
         "symmetry": _symmetry,
         "steady-motion": _steady,
         "constraint-force": _bound,
+        "impulse": _impact,
+        "momentum-behind": _impact,
+        "impact-loss": _impact,
         **{f"order-{goal}": _ordering(goal) for goal in (LAGRANGIAN, EQUATION)},
     }
 )

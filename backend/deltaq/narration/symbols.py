@@ -48,6 +48,7 @@ SYMBOLS: Mapping[str, tuple[str, str]] = {
     "impulse": (r"\Lambda{of}", ""),
     "constraint-impulse": (r"\Lambda{of}", "constraint-{name}"),
     "momentum-jump": (r"\Delta p_{{{i}}}", ""),
+    "momentum-behind": ("p_{{{i}}}^{{+}}", ""),
     "rate-jump": (r"\Delta\dot{{{q}}}", ""),
     "impact-loss": (r"E^{{-}} - E^{{+}}", ""),
     "holding-force": ("R^{{h}}{of}", "load-{name}"),
