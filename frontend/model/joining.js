@@ -4,6 +4,7 @@
  * is equivalent to another, stands alone, so that it is always clear what follows from what.
  */
 
+import { tokensOf } from "./latex.js";
 import { sidesOf } from "./linebreak.js";
 
 /** @typedef {{text: string, gap: string}} Row */
@@ -17,6 +18,12 @@ const [BETWEEN, APART] = [" \\qquad ", 2];
 /** A row beside another has gaps at its relation. */
 const RELATED = 0.3;
 
+/** A fraction of numbers, which is as easily read when it is small. */
+const NUMERIC = /\\frac(?=\{\d+\}\{\d+\})/g;
+/** A matrix by itself, behind what it is equal to, and what it is called. */
+const MATRIX = /^=\s*(\\begin\{bmatrix\}(?:(?!\\begin\{bmatrix\})[\s\S])*\\end\{bmatrix\})$/;
+const CALLED = /^\\mathbf [A-Z](?: _ \w)?$/;
+
 /** @param {Row} row @returns {Part} */
 function partOf({ text, gap }) {
   const [left, right] = sidesOf(text).map((side) => side.replace(/&$/, "").trim());
@@ -28,6 +35,35 @@ const isEquivalent = ({ left }) => ARROW.test(left);
 
 /** Whether a row says more of the equation above it. @param {Part} part */
 const goesOn = (part) => isEquivalent(part) || (!part.left && RELATION.test(part.right));
+
+/**
+ * A matrix that has been written out under its name is called by it from there on; where that leaves a row that says what
+ * the one above it says, it is left out.
+ * @param {Part[]} parts
+ */
+function calledByName(parts) {
+  /** @type {Map<string, string>} */
+  const names = new Map();
+  let name = "";
+  return parts.flatMap((part, i) => {
+    if (part.left && !isEquivalent(part)) name = part.left;
+    const right = [...names].reduce((text, [matrix, called]) => text.replaceAll(matrix, called), part.right);
+    const [, matrix] = part.right.match(MATRIX) ?? [];
+    if (matrix && CALLED.test(plain(name)) && !names.has(matrix)) {
+      names.set(matrix, name);
+      return [part];
+    }
+    return isEquivalent(part) && right !== part.right && plain(right) === plain(parts[i - 1]?.right ?? "")
+      ? []
+      : [{ ...part, right }];
+  });
+}
+
+/** What is seen of a formula, without its classes, braces and gaps. @param {string} latex */
+const plain = (latex) =>
+  tokensOf(latex.replace(/\\htmlClass\{[^}]*\}/g, ""))
+    .filter((token) => /[^\s{}]/.test(token))
+    .join(" ");
 
 /** Two rows as one. @param {Part} one @param {Part} next @param {string} between @returns {Part} */
 const beside = (one, next, between) => ({
@@ -72,7 +108,7 @@ function equationsOf(parts) {
  */
 export function joinedRows(given, room, measure) {
   const wide = (/** @type {string} */ latex) => measure(latex).width;
-  const parts = given.map(partOf);
+  const parts = calledByName(given.map(({ text, gap }) => partOf({ text: text.replace(NUMERIC, "\\tfrac"), gap })));
   const right = room - Math.max(...parts.map(({ left }) => wide(left)));
   /** @type {Part[]} */
   const rows = [];

@@ -3,19 +3,25 @@
  * textbooks set it. Classes that colour a sum as a whole are kept on each of its lines.
  */
 
-import { cut, endsRow, parted, tokensOf, weight } from "./latex.js";
+import { cut, endsRow, parted, tokensOf } from "./latex.js";
 import { named, narrowed } from "./matrices.js";
+import { sizeOf } from "./measure.js";
+
+/** @typedef {(latex: string) => number} Wide  how wide a formula is, in em */
 
 const RELATION = /^(=|\\(approx|equiv|neq|le|ge|Longleftrightarrow|Rightarrow|to))$/;
 const ROWS = /^\\begin\{aligned\}([\s\S]*)\\end\{aligned\}$/;
 /** In a term too long by itself a row may go on within so many brackets within each other. */
 const DEEPEST = 3;
-/** What goes on below stands in from where its row began. */
+/** What goes on below stands in from where its row began, by so many em. */
 const INDENT = "\\qquad {}";
-/** Left sides that take more of a row than this, and more letters, have one of their own, and the relations hang below them. */
+const INDENTED = 2;
+/** Left sides that take more of a row than this, and more em, have one of their own, and the relations hang below them. */
 const HEAVY = 0.3;
-const SHORT = 6;
+const SHORT = 4;
 const HANGING = "\\quad {}";
+/** Gaps about a sign that joins, in em: a term by itself is measured without them. */
+const JOINED = 4 / 9;
 
 /** The rows of a formula, aligned or not, each with the gap that follows it. @param {string} latex */
 export function rowsOf(latex) {
@@ -32,29 +38,34 @@ function joins(token, before) {
   return /^[+-]$/.test(token) && last !== "" && !RELATION.test(last) && !/[+([-]$/.test(last);
 }
 
-/** The terms of the outermost sum, each with its sign; a coloured sum counts by its own terms. @param {string} sum @param {number} most @returns {string[]} */
-function termsOf(sum, most) {
-  return cut(sum, joins).flatMap((term) => coloured(term, most) ?? (weight(term) > most ? opened(term, most) : [term]));
+/**
+ * The terms of the outermost sum, each with its sign; a coloured sum counts by its own terms.
+ * @param {string} sum @param {number} most @param {Wide} wide @returns {string[]}
+ */
+function termsOf(sum, most, wide) {
+  return cut(sum, joins).flatMap(
+    (term) => coloured(term, most, wide) ?? (wide(term) > most ? opened(term, most, wide) : [term]),
+  );
 }
 
 /**
  * The pieces of a term that is too long by itself: it goes on within its outermost brackets, and within those inside
  * only where that is not enough.
- * @param {string} term @param {number} most @param {number} [levels] @returns {string[]}
+ * @param {string} term @param {number} most @param {Wide} wide @param {number} [levels] @returns {string[]}
  */
-function opened(term, most, levels = 1) {
+function opened(term, most, wide, levels = 1) {
   const free = term.replace(/\\left([([])/g, "\\Bigl$1").replace(/\\right([)\]])/g, "\\Bigr$1");
   const pieces = cut(free, joins, levels);
-  if (pieces.length === 1) return levels < DEEPEST ? opened(term, most, levels + 1) : [term];
-  return pieces.flatMap((piece) => (weight(piece) > most ? opened(piece, most) : [piece]));
+  if (pieces.length === 1) return levels < DEEPEST ? opened(term, most, wide, levels + 1) : [term];
+  return pieces.flatMap((piece) => (wide(piece) > most ? opened(piece, most, wide) : [piece]));
 }
 
-/** The terms of a sum within one colour, each in that colour; null if the term is not such a sum. @param {string} term @param {number} most */
-function coloured(term, most) {
+/** The terms of a sum within one colour, each in that colour; null if the term is not such a sum. @param {string} term @param {number} most @param {Wide} wide */
+function coloured(term, most, wide) {
   const found = term.match(/^\s*([=+]?)\s*\\htmlClass\{([^}]*)\}\{([\s\S]*)\}\s*$/);
   if (!found || closesEarly(found[3])) return null;
   const [, sign, names, content] = found;
-  const inner = termsOf(content, most);
+  const inner = termsOf(content, most, wide);
   return inner.length < 2
     ? null
     : inner.map((part, i) => (i ? `\\htmlClass{${names}}{{}${part}}` : `${sign}\\htmlClass{${names}}{${part}}`));
@@ -76,58 +87,71 @@ export function sidesOf(row) {
   return rest.length ? [head, rest.join("")] : ["", head];
 }
 
-/** @param {{text: string, gap: string}[]} rows @param {number} most */
-function hung(rows, most) {
-  const heaviest = Math.max(...rows.map(({ text }) => weight(sidesOf(text)[0])));
+/** The left side of a row, without its mark. @param {string} row */
+const leftOf = (row) => sidesOf(row)[0].replace(/&\s*$/, "").trim();
+
+/** @param {{text: string, gap: string}[]} rows @param {number} most @param {Wide} wide */
+function hung(rows, most, wide) {
+  const heaviest = Math.max(...rows.map(({ text }) => wide(leftOf(text))));
   if (heaviest <= Math.max(SHORT, HEAVY * most)) return rows;
   return rows.flatMap(({ text, gap }) => {
-    const [left, right] = sidesOf(text);
+    const [left, right] = [leftOf(text), sidesOf(text)[1]];
     const row = { text: `& ${HANGING}${right}`, gap };
-    return weight(left) ? [{ text: `& ${left.replace(/&$/, "")}`, gap: " \\\\[0.2em] " }, row] : [row];
+    return left ? [{ text: `& ${left}`, gap: " \\\\[0.2em] " }, row] : [row];
   });
 }
 
-/** @param {string} row @param {number} most @returns {string[]} */
-function broken(row, most) {
-  if (weight(row) <= most) return [row];
+/** A row whose right side is to be at most `most` em wide. @param {string} row @param {number} most @param {Wide} wide @returns {string[]} */
+function broken(row, most, wide) {
   const [begin, whole] = sidesOf(row);
+  if (wide(whole) <= most) return [row];
   const hangs = whole.trimStart().startsWith(HANGING);
-  const [left, right] = hangs ? [`${begin} ${HANGING}`, whole.trimStart().slice(HANGING.length)] : [begin, whole];
-  const terms = termsOf(right, most).map((term, i) => narrowed(term, most - (i ? 0 : weight(left)), linesOf));
-  return lined(terms, most, left).map((line, i) => (i ? `& ${INDENT}${line}` : line));
+  const [lead, right] = hangs ? [HANGING, whole.trimStart().slice(HANGING.length)] : ["", whole];
+  const least = most - Math.max(wide(lead), INDENTED);
+  const terms = termsOf(right, least, wide).map((term) =>
+    narrowed(term, least, wide, (entry, width) => linesOf(entry, width, wide)),
+  );
+  return lined(terms, most, wide, lead).map((line, i) => (i ? `& ${INDENT}${line}` : `${begin} ${line}`));
 }
 
 /** Brackets that a piece opens, less those that it closes. @param {string} piece */
 const balance = (piece) =>
   tokensOf(piece).reduce((sum, token) => sum + (/^[([]$/.test(token) ? 1 : /^[)\]]$/.test(token) ? -1 : 0), 0);
 
-/** Terms in lines of at most `most` letters; what ends a bracket of a line above ends its line. @param {string[]} terms @param {number} most @param {string} [lead]  what the first of them follows */
-function lined(terms, most, lead = "") {
+/**
+ * Terms in lines of at most `most` em; what ends a bracket of a line above ends its line.
+ * @param {string[]} terms @param {number} most @param {Wide} wide @param {string} [lead]  what the first of them follows
+ */
+function lined(terms, most, wide, lead = "") {
   const lines = [lead];
-  let [open, within] = [0, false];
+  let [open, within, taken, room] = [0, false, 0, most - (lead ? wide(lead) : 0)];
   for (const term of terms) {
-    const last = lines[lines.length - 1];
+    const needed = wide(term);
     const ends = within && open === 0;
-    if (last !== lead && (ends || weight(last) + weight(term) > most)) {
+    if (taken && (ends || taken + JOINED + needed > room)) {
       lines.push(term);
-      within = open > 0;
-    } else lines[lines.length - 1] += term;
+      [within, taken, room] = [open > 0, needed, most - INDENTED];
+    } else {
+      lines[lines.length - 1] += term;
+      taken += (taken && JOINED) + needed;
+    }
     open += balance(term);
   }
   return lines;
 }
 
-/** @param {string} sum @param {number} most */
-const linesOf = (sum, most) => lined(termsOf(sum, most), most);
+/** @param {string} sum @param {number} most @param {Wide} wide */
+const linesOf = (sum, most, wide) => lined(termsOf(sum, most, wide), most, wide);
 
 /**
- * The rows of a formula, each at most `part` of its widest one, as far as they can be broken.
- * @param {{text: string, gap: string}[]} given @param {number} part between 0 and 1
+ * The rows of a formula, each at most `most` em wide, as far as they can be broken.
+ * @param {{text: string, gap: string}[]} given @param {number} most @param {Wide} [wide]
  */
-export function brokenRows(given, part) {
-  const most = part * Math.max(...given.map(({ text }) => weight(text)));
-  return hung(named(given, most, sidesOf), most).flatMap(({ text, gap }) => {
-    const lines = broken(text, most);
+export function brokenRows(given, most, wide = (latex) => sizeOf(latex).width) {
+  const rows = hung(named(given, most, wide, sidesOf), most, wide);
+  const right = most - Math.max(...rows.map(({ text }) => wide(leftOf(text))));
+  return rows.flatMap(({ text, gap }) => {
+    const lines = broken(text, right, wide);
     return lines.map((line, i) => ({ text: line, gap: i < lines.length - 1 ? " \\\\[0.2em] " : gap }));
   });
 }

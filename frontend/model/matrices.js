@@ -8,7 +8,7 @@ import { entriesOf, weight, withMatrices } from "./latex.js";
 /** @typedef {{text: string, gap: string}} Row */
 /** Entries up to this many letters stay where they are. */
 const SHORT = 6;
-const NAME = /\\mathbf\{([A-Z])\}(?:_\{?(\w)\}?)?/;
+const NAME = /\\mathbf\{([A-Z])\}\}*(?:_\{?(\w)\}?)?/;
 const ALONE = /^\s*=\s*\\begin\{bmatrix\}((?:(?!\\begin\{bmatrix\})[\s\S])*)\\end\{bmatrix\}\s*$/;
 
 /** @param {string[][]} entries */
@@ -35,16 +35,16 @@ function namesOf(left, entries) {
 /**
  * Rows in which matrices of more than one column that are too wide have names for their entries, explained where the
  * matrix is first written.
- * @param {Row[]} rows @param {number} most @param {(text: string) => string[]} sidesOf
+ * @param {Row[]} rows @param {number} most em @param {import("./linebreak.js").Wide} wide @param {(text: string) => string[]} sidesOf
  */
-export function named(rows, most, sidesOf) {
+export function named(rows, most, wide, sidesOf) {
   /** @type {Map<string, string>} */
   const known = new Map();
   let name = "";
   return rows.flatMap((row) => {
     const [left, right] = sidesOf(row.text);
     if (weight(left)) name = left;
-    if (weight(row.text) <= most) return [row];
+    if (wide(row.text.replace(/&/, "")) <= most) return [row];
     const [, body] = right.match(ALONE) ?? [];
     const entries = body ? entriesOf(body) : [];
     if (!body || entries[0].length < 2 || !NAME.test(name))
@@ -60,14 +60,14 @@ export function named(rows, most, sidesOf) {
 
 /**
  * A term whose columns fit: their entries go on below.
- * @param {string} term @param {number} most @param {(entry: string, most: number) => string[]} linesOf
+ * @param {string} term @param {number} most em @param {import("./linebreak.js").Wide} wide @param {(entry: string, most: number) => string[]} linesOf
  */
-export function narrowed(term, most, linesOf) {
-  const all = weight(term);
+export function narrowed(term, most, wide, linesOf) {
+  const all = wide(term);
   if (all <= most) return term;
   return withMatrices(term, (matrix, entries) => {
     if (entries.some((row) => row.length > 1)) return matrix;
-    const rows = entries.map(([entry]) => linesOf(entry, most - all + weight(matrix)));
+    const rows = entries.map(([entry]) => linesOf(entry, most - all + wide(matrix)));
     if (rows.every((lines) => lines.length === 1)) return matrix;
     return `\\begin{bmatrix*}[l] ${rows.map((lines) => lines.join(" \\\\ \\quad {}")).join(" \\\\[0.6em] ")} \\end{bmatrix*}`;
   });

@@ -9,15 +9,15 @@ import { sizeOf } from "./measure.js";
 
 /** Broken rows are to fit at this size. */
 const COMFORTABLE = 0.85;
-/** Terms are counted by their letters when rows are broken: what is still too wide is broken into shorter ones. */
+/** What cannot be broken stays wider: then all is broken into shorter rows. */
 const SHARES = [1, 0.7, 0.45];
 /** What is estimated is rarely wider in the end by more than this. */
-const MARGIN = 1.05;
+const MARGIN = 1.04;
 /** A row is never less high than a bracket. */
 const STRUT = { height: 0.84, depth: 0.36 };
 
-/** Rows are broken at parts of their width that are powers of this one: sizes that are nearly the same have the same rows. */
-const GRID = 0.95;
+/** Rows are broken at widths that are powers of this one: sizes that are nearly the same have the same rows. */
+const GRID = 0.98;
 
 /** @param {import("./joining.js").Row} row as LaTeX has it, with the gap below it @param {typeof sizeOf} measure */
 function rowOf({ text, gap }, measure) {
@@ -44,24 +44,25 @@ function remembering(asked) {
   };
 }
 
-/** @param {number} part */
-const onGrid = (part) => GRID ** Math.max(0, Math.ceil(Math.log(part) / Math.log(GRID)));
+/** @param {number} width */
+const onGrid = (width) => GRID ** Math.ceil(Math.log(width) / Math.log(GRID));
 
 /** A formula that is to be laid out, at one size after the other: what it is measured by is worked out once. @param {string} latex */
 export function layoutOf(latex) {
   const given = rowsOf(latex);
   const measure = remembering(sizeOf);
+  const wide = (/** @type {string} */ text) => measure(text).width;
   /** @type {Map<string, {rows: ReturnType<typeof rowOf>[], wide: number}>} */
   const measured = new Map();
 
-  /** @param {import("./joining.js").Row[]} rows @param {number} part  of the widest that each may be at most */
-  function broken(rows, part) {
-    const key = `${part.toFixed(4)}\n${rows.map(({ text }) => text).join("\n")}`;
+  /** @param {import("./joining.js").Row[]} rows @param {number} most  em that each may be wide at most */
+  function broken(rows, most) {
+    const key = `${most.toFixed(4)}\n${rows.map(({ text }) => text).join("\n")}`;
     const known = measured.get(key);
     if (known) return known;
-    const set = (part < 1 ? brokenRows(rows, part) : rows).map((row) => rowOf(row, measure));
-    const wide = [0, 1].map((side) => Math.max(...set.map(({ widths }) => widths[side])));
-    const made = { rows: set, wide: wide[0] + wide[1] };
+    const set = (most < Infinity ? brokenRows(rows, most, wide) : rows).map((row) => rowOf(row, measure));
+    const [left, right] = [0, 1].map((side) => Math.max(...set.map(({ widths }) => widths[side])));
+    const made = { rows: set, wide: left + right };
     measured.set(key, made);
     return made;
   }
@@ -76,15 +77,15 @@ export function layoutOf(latex) {
      */
     planned(room, { bearable, smallest, close = false }) {
       const start = close ? joinedRows(given, room / MARGIN, measure) : given;
-      const fitted = (/** @type {number} */ share) => {
-        const { rows, wide } = broken(start, share);
-        return { rows, part: Math.min(1, room / (wide * MARGIN)) };
+      const fitted = (/** @type {number} */ most) => {
+        const { rows, wide: needed } = broken(start, most);
+        return { rows, part: Math.min(1, room / (needed * MARGIN)) };
       };
-      let best = fitted(1);
+      let best = fitted(Infinity);
       if (best.part >= bearable) return best;
-      const share = best.part / Math.max(bearable, COMFORTABLE);
+      const most = room / (MARGIN * Math.max(bearable, COMFORTABLE));
       for (const one of SHARES) {
-        const next = fitted(onGrid(one * share));
+        const next = fitted(onGrid(one * most));
         if (next.part > best.part) best = next;
         if (best.part >= smallest) break;
       }

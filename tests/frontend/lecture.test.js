@@ -3,6 +3,7 @@ import { test } from "node:test";
 import { createReceiver, createSender, isId } from "../../frontend/model/lecture/link.js";
 import { keepNotes, noteOf, readNotes, withNote } from "../../frontend/model/lecture/notes.js";
 import { better, bounds, filling, formulaOf, laidOut, larger } from "../../frontend/model/lecture/filling.js";
+import { numberingOf } from "../../frontend/model/lecture/numbering.js";
 import { premisesOf, shortForm } from "../../frontend/model/lecture/premises.js";
 import { allOrNone, isConcluded, meant, onwards, partsOf, within } from "../../frontend/model/lecture/stops.js";
 import { clockText, elapsed, STOPPED, toggled } from "../../frontend/model/lecture/timer.js";
@@ -94,7 +95,7 @@ test("equations stand beside each other only where they are read from the last r
   const many = [formula(`\\begin{aligned}${Array.from({ length: 9 }, (_, i) => `x_{${i}} &= ${i}`).join(" \\\\ ")}\\end{aligned}`)];
   const [wide, low] = [{ width: 1200, height: 260 }, { width: 1200, height: 700 }].map((pane) => filling(many, pane, 768));
   assert.deepEqual([wide.close, wide.far, low.close, low.far], [true, true, false, true]);
-  assert.equal(filling([formula(SUM)], { width: 300, height: 100 }, 768).close, false);
+  assert.equal(filling([formula(SUM)], { width: 300, height: 300 }, 768).close, false);
 });
 
 test("of two arrangements the first that is read from the last row is taken, else the larger", () => {
@@ -180,4 +181,25 @@ test("the lecture's time stops and goes on", () => {
   assert.equal(elapsed(stopped, 99_000), 4000);
   assert.equal(elapsed(toggled(stopped, 100_000), 101_000), 5000);
   assert.deepEqual([0, 61_000, 3_723_000].map(clockText), ["0:00", "1:01", "1:02:03"]);
+});
+
+const PARAMETERS = [["m", "m_{2}"], ["M", "m_1"], ["g", ""]].map(([name, latex]) => ({ name, latex }));
+/** @param {string[]} masses */
+const bodiesOf = (...masses) => /** @type {any} */ ({ bodies: masses.map((mass, i) => ({ name: "ab"[i], mass })), parameters: PARAMETERS });
+const NAMES = /** @type {Record<string, string>} */ ({ a: "upper bob", b: "lower_bob" });
+
+test("bodies with long names are called by the numbers of their masses, else by their order, and who is who is told", () => {
+  const latex = "\\mathbf{r}_{\\text{upper bob}} + \\mathbf{F}_{\\text{weight}, \\text{lower\\_bob}}";
+  const by = (/** @type {string[]} */ ...masses) => numberingOf(bodiesOf(...masses), (body) => NAMES[body]);
+  assert.equal(by("m", "M").short(latex), "\\mathbf{r}_{2} + \\mathbf{F}_{\\text{weight}, 1}");
+  assert.equal(by("m", "m").short(latex), "\\mathbf{r}_{1} + \\mathbf{F}_{\\text{weight}, 2}");
+  assert.deepEqual(by("m", "M").within(["x", latex.slice(0, 35)]), [{ number: "2", name: "upper bob" }]);
+});
+
+test("a single body, or bodies with short names, are called as they are", () => {
+  for (const [scene, names] of /** @type {[any, Record<string, string>][]} */ ([[bodiesOf("m"), NAMES], [bodiesOf("m", "M"), { a: "cart", b: "bob" }], [undefined, {}]])) {
+    const numbering = numberingOf(scene, (body) => names[body]);
+    assert.equal(numbering.short("\\text{upper bob} \\text{cart}"), "\\text{upper bob} \\text{cart}");
+    assert.deepEqual(numbering.within(["\\text{cart}"]), []);
+  }
 });

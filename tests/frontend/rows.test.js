@@ -81,7 +81,7 @@ const said = (latex) => latex.replace(/\\\\\[[^\]]*\]|\\(?:begin|end)\{\w+\}|\\[
 /** @type {[string, number, string[]][]} */
 const JOINED = [
   ["all in one where there is room", 40, ["M = a = [] x = 1 y = 2", "u = v <=> v - u = 0"]],
-  ["what an equation is equal to stays with it", 13, ["M = a = []", "x = 1 y = 2", "u = v <=> v - u = 0"]],
+  ["what an equation is equal to stays with it", 12, ["M = a = []", "x = 1 y = 2", "u = v <=> v - u = 0"]],
   ["an equation that needs two rows stands alone", 7.2, ["M = a", "= []", "x = 1", "y = 2", "u = v", "<=> v - u = 0"]],
 ];
 for (const [name, room, wanted] of JOINED)
@@ -92,6 +92,23 @@ for (const [name, room, wanted] of JOINED)
     assert.equal(part, 1);
     for (const { left, right } of rows) katex.renderToString(`{\\displaystyle ${left}{}${right}}`);
   });
+
+test("a fraction of numbers is small where rows share rows, and no other", () => {
+  const [{ right }] = planned("\\begin{aligned}E &= \\frac{1}{2} m v^2 + \\frac{a}{b}\\end{aligned}", 40, CLOSE).rows;
+  assert.equal(right.replace(/\s/g, ""), "=\\tfrac{1}{2}mv^2+\\frac{a}{b}");
+});
+
+const [MASSES, STIFF] = ["\\begin{bmatrix} m & 0 \\\\ 0 & m \\end{bmatrix}", "\\begin{bmatrix} k & 0 \\\\ 0 & c \\end{bmatrix}"];
+const LINEAR = `\\begin{aligned}\\htmlClass{of-body_a}{\\mathbf{M}}_0 &= \\mathbf{M} \\\\ &= ${MASSES} \\\\ \\mathbf{K}_0 &= ${STIFF} \\\\ & \\mathbf{M}_0 x + {\\mathbf{K}_0 x} = 0 \\\\ \\;\\Longleftrightarrow\\; & ${MASSES} x + {${STIFF} x} = b \\end{aligned}`;
+
+test("a matrix is written out once where rows share rows, and what that repeats is left out", () => {
+  const said = (/** @type {string} */ latex) => planned(latex, 60, CLOSE).rows.map(({ left, right }) => `${left} ${right}`).join(" ").replace(/\\htmlClass\{[^}]*\}|\s|\\[;q]\w*|[{}]/g, "");
+  const named = said(LINEAR);
+  assert.equal(named.split("bmatrix").length - 1, 4);
+  assert.ok(named.endsWith("\\Longleftrightarrow\\mathbfM_0x+\\mathbfK_0x=b"), named);
+  const repeated = said(LINEAR.replace("= b", "= 0"));
+  assert.ok(repeated.endsWith("\\mathbfM_0x+\\mathbfK_0x=0") && !repeated.includes("Longleftrightarrow"), repeated);
+});
 
 test("rows that share rows say the same in the same order, and none is wider than its place", () => {
   for (let room = 6; room < 40; room += 1.5) {

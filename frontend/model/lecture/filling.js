@@ -11,11 +11,12 @@ const LEAST = 0.024;
 /** No letters are smaller than this many pixels. */
 const LEGIBLE = 15;
 /** Parts of the height that formulas may fill, and of their size below which rows are broken. */
-const FULL = 0.96;
+const FULL = 0.97;
 const BEARABLE = 0.92;
 const SMALLEST = 0.56;
-/** From one size that is tried to the next. */
-const FINER = 0.96;
+/** From one size that is tried to the next; the least that is read from the last row is tried, too, and a little more. */
+const FINER = 0.97;
+const JUST = [1.04, 1.015, 1.002];
 /** Sizes that are as good as the same. */
 const SAME = 0.99;
 /** Part of the shorter side of the screen from which on letters are read from the last row. */
@@ -51,11 +52,19 @@ export function laidOut({ layout, share, indent = 0 }, size, width, close = fals
   return { part, height: own * part * (LARGER * em + AROUND) };
 }
 
+/** From large to small. @param {number} screen */
+function sizesOn(screen) {
+  const { largest, least } = bounds(screen);
+  const count = 1 + Math.floor(Math.log(least / largest) / Math.log(FINER));
+  const steps = Array.from({ length: count }, (_, i) => largest * FINER ** i);
+  return [...steps, ...JUST.map((part) => (part * FAR * screen) / LARGER)].sort((a, b) => b - a);
+}
+
 /** @param {readonly Formula[]} formulas @param {Pane} pane @param {number} screen @param {boolean} close @returns {Filling} */
 function filled(formulas, pane, screen, close) {
-  const { largest, least } = bounds(screen);
-  let best = { size: least, reached: 0 };
-  for (let size = largest; size >= least && size > SAME * best.reached; size *= FINER) {
+  let best = { size: bounds(screen).least, reached: 0 };
+  for (const size of sizesOn(screen)) {
+    if (size <= SAME * best.reached) break;
     const set = formulas.map((formula) => laidOut(formula, size, pane.width, close));
     if (set.reduce((sum, { height }) => sum + height, 0) > FULL * pane.height) continue;
     const reached = size * (set[0]?.part ?? 1);
@@ -64,8 +73,8 @@ function filled(formulas, pane, screen, close) {
   return { ...best, far: LARGER * best.reached >= FAR * screen, close };
 }
 
-/** @template {Filling} T @param {T} one @param {T} other @returns {T} the one that is larger, the first if they are about the same */
-export const larger = (one, other) => (one.reached >= SAME * other.reached ? one : other);
+/** @template {Filling} T @param {T} one @param {T} other @returns {T} the one that is larger, the first if they are about the same, and the second if neither fits */
+export const larger = (one, other) => (one.reached > 0 && one.reached >= SAME * other.reached ? one : other);
 
 /** @template {Filling} T @param {T} one @param {T} other @returns {T} the first that is read from the last row, else the larger */
 export const better = (one, other) => (one.far ? one : other.far ? other : larger(one, other));

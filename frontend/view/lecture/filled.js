@@ -1,6 +1,6 @@
 /** Gives the formulas of a slide the size at which they fill it, and again whenever there is more or less room. */
 
-import { better, bounds, filling, formulaOf, larger } from "../../model/lecture/filling.js";
+import { better, bounds, filling, formulaOf } from "../../model/lecture/filling.js";
 import { refit } from "../formula.js";
 
 /** @typedef {{latex: string, share: number, depth: number}} Shown  depth: of a substep within its step */
@@ -13,8 +13,12 @@ const TRIES = 8;
 
 /** Words and premises as they are, smaller, and only the formulas. */
 const DENSER = ["", "words", "formulas"];
-/** Where the drawing stands in a corner: under it, or beside it as if it were a column. Elsewhere both are the same. */
-const PLACES = ["under", "beside"];
+/**
+ * Where the drawing stands: in a column of its own, or in a corner with the formulas under it. A screen that is less wide
+ * for its height has no room for a column: there formulas are under the corner, or beside it as if it were one.
+ */
+const PLACES = { wide: ["", "under"], narrow: ["under", "beside"] };
+const narrow = matchMedia("(min-aspect-ratio: 1) and (max-aspect-ratio: 3/2)");
 /** Rem at both sides of a formula. */
 const PADDING = 0.5;
 
@@ -57,6 +61,8 @@ export function createFilled(root) {
     const slide = /** @type {HTMLElement | null} */ (root.querySelector(".slide"));
     const scroll = /** @type {HTMLElement | null} */ (slide?.querySelector(".scroll") ?? null);
     if (!slide || !scroll) return;
+    const desk = /** @type {HTMLElement} */ (slide.parentElement);
+    if (!placesOn().includes(desk.dataset.place ?? "none")) desk.dataset.place = placesOn()[0];
     watch(scroll);
     const room = () =>
       [scroll.clientWidth, scroll.clientHeight, innerWidth, ...shown.map(({ latex }) => latex)].join("\n");
@@ -79,7 +85,8 @@ export function createFilled(root) {
   function roomiest(slide, scroll) {
     const natural = shown.map(naturalOf).map(formulaOf);
     const arrange = (/** @type {Arranged} */ { dense, place, close }) => {
-      Object.assign(slide.dataset, { dense, place, rows: close ? "close" : "" });
+      Object.assign(slide.dataset, { dense, rows: close ? "close" : "" });
+      /** @type {HTMLElement} */ (slide.parentElement).dataset.place = place;
       slide.style.setProperty("--corner", `${cornerOf(slide, scroll)}px`);
     };
     const filledIn = (/** @type {string} */ dense, /** @type {string} */ place) => {
@@ -89,10 +96,13 @@ export function createFilled(root) {
     /** @type {ReturnType<typeof filledIn> | null} */
     let best = null;
     for (const dense of DENSER) {
-      const under = filledIn(dense, PLACES[0]);
-      const found = cornerOf(slide, scroll) ? larger(under, filledIn(dense, PLACES[1])) : under;
-      best = best ? better(best, found) : found;
-      if (best.far) break;
+      for (const place of placesOn()) {
+        const found = filledIn(dense, place);
+        if (best?.dense === dense && !cornerOf(slide, scroll)) break;
+        best = best ? better(best, found) : found;
+        if (best.far) break;
+      }
+      if (best?.far) break;
     }
     if (best) arrange(best);
     return best?.size ?? 0;
@@ -123,6 +133,8 @@ export function createFilled(root) {
     fill(false);
   };
 }
+
+const placesOn = () => (narrow.matches ? PLACES.narrow : PLACES.wide);
 
 /** How far a drawing in the corner of a slide reaches down into what is scrolled, in pixels. @param {HTMLElement} slide @param {HTMLElement} scroll */
 function cornerOf(slide, scroll) {

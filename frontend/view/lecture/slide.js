@@ -6,8 +6,10 @@ import { displayed, prose } from "../formula.js";
 import { icon } from "../icons.js";
 import { missing } from "../steps.js";
 import { question } from "./asking.js";
+import { called } from "../../model/catalog.js";
 import { isUnderWay } from "../../model/derivations.js";
 import { indexOf } from "../../model/reveal.js";
+import { numberingOf } from "../../model/lecture/numbering.js";
 import { premisesOf } from "../../model/lecture/premises.js";
 import { isConcluded, partsOf, within } from "../../model/lecture/stops.js";
 
@@ -37,7 +39,7 @@ function sheet(line, view, { asking }) {
   const parts = partsOf(step).slice(0, stop);
   const concluded = isConcluded(step, stop);
   return html`
-    <p class="where"><span class="ordinal">${chapterIndex + 1}</span>${chapter.title}</p>
+    <p class="where"><span class="ordinal">${chapterIndex + 1}</span>${chapter.title}${numbers(line, view)}</p>
     ${given(line, view)}
     <div class="scroll" tabindex="0" role="region" aria-label=${view.t("derivation")}>
       ${keyed(
@@ -60,20 +62,40 @@ function sheet(line, view, { asking }) {
     <div class="reason">${view.why?.panel(step)}</div>`;
 }
 
+/** How bodies are called in formulas; a proof has none. @param {Pick<Shown, "state" | "t">} view */
+function numberingIn({ state, t }) {
+  const { scene } = /** @type {{scene?: import("../../model/types.js").Scene | null}} */ (state);
+  return numberingOf(scene, (body) => called(scene?.labels, body, state.place.lang, t));
+}
+
+/** Which body each number in a slide's formulas stands for. @param {import("../../model/reveal.js").Line} line @param {Shown} view */
+function numbers(line, view) {
+  const steps = [line.step, ...partsOf(line.step).map(({ step }) => step)];
+  const latex = [...steps.map(written), ...premisesOf(view.state.lines, line).map((premise) => premise.latex)];
+  return numberingIn(view)
+    .within(latex)
+    .map(({ number, name }) => html`<span class="numbered"><b>${number}</b> ${name}</span>`);
+}
+
 /** What the step rests on, pinned above it. @param {import("../../model/reveal.js").Line} line @param {Shown} view */
-function given(line, { state, session, link, follow, t }) {
+function given(line, view) {
+  const { state, session, link, follow, t } = view;
+  const { short } = numberingIn(view);
   const premises = premisesOf(state.lines, line).filter(({ latex }) => latex);
   if (!premises.length) return html`<div class="given"></div>`;
   const one = (/** @type {import("../../model/lecture/premises.js").Premise} */ { step, line: from, latex }) => html`
     <li data-terms=${step.id}><a class="from" href=${link({ step: from.step.id })} title=${step.title || from.step.title}
-      @click=${(/** @type {Event} */ event) => follow(event, () => session.goTo(from.step.id))}>${from.number}</a>${displayed(latex, false, step)}</li>`;
+      @click=${(/** @type {Event} */ event) => follow(event, () => session.goTo(from.step.id))}>${from.number}</a>${displayed(short(latex), false, step)}</li>`;
   return html`<details class="given" open><summary>${icon("chevron")}<span>${t("lecture.given")}</span></summary><ul>${premises.map(one)}</ul></details>`;
 }
 
-/** Its terms are marked by what became of them. @param {Step} step @param {Pick<Shown, "why">} view */
-const latexOf = (step, { why }) => why?.formula(step) ?? (step.marked || step.latex);
+/** Its terms are marked by what became of them. @param {Step} step */
+const written = (step) => step.marked || step.latex;
 
-/** @param {Step} step @param {Pick<Shown, "why">} view */
+/** @param {Step} step @param {Pick<Shown, "why" | "state" | "t">} view */
+const latexOf = (step, view) => numberingIn(view).short(view.why?.formula(step) ?? written(step));
+
+/** @param {Step} step @param {Pick<Shown, "why" | "state" | "t">} view */
 function formulaOf(step, view) {
   const latex = latexOf(step, view);
   return latex ? displayed(latex, false, step) : nothing;
@@ -102,7 +124,7 @@ export function formulas(view, veiled) {
   ].filter(({ latex }) => latex);
 }
 
-/** @param {{step: Step, depth: number}} shown @param {number} place @param {boolean} newest @param {Pick<Shown, "why">} view */
+/** @param {{step: Step, depth: number}} shown @param {number} place @param {boolean} newest @param {Pick<Shown, "why" | "state" | "t">} view */
 function part({ step, depth }, place, newest, view) {
   return html`
     <section class="part ${newest ? "newest" : ""}" data-part=${place + 1} data-terms=${step.id} style="--depth:${depth}">
