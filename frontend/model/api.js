@@ -1,5 +1,6 @@
 /** The API as functions; every failure comes back as an `ApiError` whose `failure` can be shown as sentences. */
 
+import { unpacked } from "./columns.js";
 import { tableOf } from "./own.js";
 
 /** @typedef {import("./types.js").Failure} Failure */
@@ -132,7 +133,7 @@ export function createApi(send, wait = pause, base = "/api/v1") {
     /** @param {string} id @param {Lang} lang @returns {Promise<Got<"/proofs/{identifier}">>} */
     proof: (id, lang) => call(`/proofs/${id}?lang=${lang}`),
     /** @param {Sent<"/simulations">} body @param {AbortSignal} [signal] @returns {Promise<import("./types.js").Trajectory>} */
-    simulate: (body, signal) => put("/simulations", "application/json", JSON.stringify(body), signal),
+    simulate: async (body, signal) => unpacked(await post("/simulations", { ...body, columns: "planes" }, signal)),
   };
 }
 

@@ -3229,7 +3229,7 @@ export interface components {
              * @default numbers
              * @enum {string}
              */
-            columns: "numbers" | "base64";
+            columns: "numbers" | "base64" | "planes";
             /**
              * Wall Time
              * @description seconds
@@ -7340,7 +7340,7 @@ export interface components {
              * @default numbers
              * @enum {string}
              */
-            columns: "numbers" | "base64";
+            columns: "numbers" | "base64" | "planes";
             /** @description the samples, in seconds; at each of `events` its time twice, with the values before and behind it */
             t: components["schemas"]["Column"];
             /** Coordinates */
@@ -7511,7 +7511,7 @@ export interface components {
             release?: string[];
             /**
              * Columns
-             * @description how arrays are written; base64: little-endian doubles, components of a vector together
+             * @description how arrays are written; base64: little-endian doubles, components of a vector together; planes: base64 of all first bytes of these doubles, then of all second ones …, which is smaller when compressed
              */
             columns?: components["schemas"]["SimulationRequestColumns"];
             /**
@@ -9686,7 +9686,7 @@ export interface components {
          * @default numbers
          * @enum {string}
          */
-        EnsembleRequestColumns: "numbers" | "base64";
+        EnsembleRequestColumns: "numbers" | "base64" | "planes";
         /**
          * BasinsRequestParameters
          * @default {}
@@ -9978,7 +9978,7 @@ export interface components {
          * @default numbers
          * @enum {string}
          */
-        SimulationRequestColumns: "numbers" | "base64";
+        SimulationRequestColumns: "numbers" | "base64" | "planes";
         /**
          * VariationRequestSyntax
          * @default plain

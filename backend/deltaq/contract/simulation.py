@@ -16,7 +16,7 @@ SHORTEST = 1e-250  # seconds; parts of less are no longer different numbers
 USUAL_TOLERANCE = 1e-6
 Part = Literal["coordinates", "rates", "positions", "loads", "multipliers", "energy", "error"]
 PARTS: tuple[Part, ...] = get_args(Part)
-Written = Literal["numbers", "base64"]
+Written = Literal["numbers", "base64", "planes"]
 COLUMNS: tuple[Written, ...] = get_args(Written)
 Base64 = Annotated[str, Field(json_schema_extra={"contentEncoding": "base64"})]
 
@@ -40,7 +40,9 @@ class SimulationRequest(SceneWithInitialValues):
     )
     release: Released = ()
     columns: Written = Field(
-        "numbers", description="how arrays are written; base64: little-endian doubles, components of a vector together"
+        "numbers",
+        description="how arrays are written; base64: little-endian doubles, components of a vector together; planes:"
+        " base64 of all first bytes of these doubles, then of all second ones …, which is smaller when compressed",
     )
     lang: AskedLanguage = None
 
@@ -68,7 +70,7 @@ class SimulationRequest(SceneWithInitialValues):
         return USUAL_TOLERANCE if self.step is None and self.tolerance is None else self.tolerance
 
 
-# As `columns` of the answer says: numbers, or little-endian doubles where base64 was asked for.
+# As `columns` of the answer says: numbers, or little-endian doubles where base64 or planes were asked for.
 Column = TypeAliasType("Column", tuple[float, ...] | Base64)
 VectorColumn = TypeAliasType("VectorColumn", tuple[tuple[float, ...], ...] | Base64)
 

@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 
 import numpy as np
 
 from ..mechanics.user_text import plainly
 from ..model.model import Observation
 from .choice import Choice
-from .columns import WRITERS, Column
+from .columns import WRITERS, Column, Writer
 from .derivatives import power
 from .friction import FrictionForce
 from .outcome import Outcome
@@ -57,7 +57,7 @@ def answer(
         "method": choice.method.id,
         "choice": {"code": choice.reason, "parameters": {}} if choice.reason else None,
         "columns": request.columns,
-        "t": column(trajectory.times),
+        "t": column.write(trajectory.times),
         **parts,
         "t_reached": trajectory.reached,
         "trusted_until": trajectory.trusted_until,
@@ -72,7 +72,7 @@ def _curves(
     trajectory: Trajectory,
     seen: Observation,
     errors: Floats,
-    column: Callable[[Floats], Column],
+    column: Writer,
 ) -> Document:
     """What was asked for of coordinates, rates, positions and loads, all rounded together."""
     free = problem.model.layout.free
@@ -86,15 +86,16 @@ def _curves(
         "loads": seen.arrows,
     }
     wanted = {part: curves[part] for part in curves if part in request.include}
-    shorter = iter(_together([each for part in wanted.values() for each in part.values()], errors))
-    return {part: {name: column(next(shorter)) for name in wanted[part]} for part in wanted}
+    arrays = [each for part in wanted.values() for each in part.values()]
+    shorter = iter(_together(arrays, errors, column))
+    return {part: {name: column.write(next(shorter)) for name in wanted[part]} for part in wanted}
 
 
-def _together(arrays: list[Floats], errors: Floats) -> list[Floats]:
+def _together(arrays: list[Floats], errors: Floats, column: Writer) -> list[Floats]:
     """Each array rounded to the errors of its samples."""
     if not arrays:
         return []
-    table = rounded(np.column_stack(arrays), errors)
+    table = column.shorten(np.column_stack(arrays), errors)
     ends = np.cumsum([math.prod(each.shape[1:]) for each in arrays])
     pieces = np.split(table, ends[:-1], axis=1)
     return [piece.reshape(each.shape) for piece, each in zip(pieces, arrays, strict=True)]
@@ -127,9 +128,7 @@ def _transition(found: Transition) -> Document:
     }
 
 
-def _energy(
-    problem: Problem, trajectory: Trajectory, seen: Observation, errors: Floats, column: Callable[[Floats], Column]
-) -> Document:
+def _energy(problem: Problem, trajectory: Trajectory, seen: Observation, errors: Floats, column: Writer) -> Document:
     """Energies, power and work of what is not in E + V, and the balance E + V − ∫P dt, constant when all is right."""
     states = np.hstack([trajectory.values, trajectory.rates])
     balance = seen.kinetic + seen.potential - trajectory.work
@@ -137,10 +136,10 @@ def _energy(
     # Second order in the error where the energy is flat, hence more digits than the error itself supports.
     doubt = np.maximum(1e-3 * errors, 1e-14) * max(scale, 1e-300)
     watts = power(problem, trajectory.times, states, trajectory.stretches)
-    energies = _together([seen.kinetic, seen.potential, watts, trajectory.work, balance], doubt)
+    energies = _together([seen.kinetic, seen.potential, watts, trajectory.work, balance], doubt, column)
     named = zip(("kinetic", "potential", "power", "work", "balance"), energies, strict=True)
     return {
-        **{name: column(energy) for name, energy in named},
+        **{name: column.write(energy) for name, energy in named},
         "drift": short(float(np.max(np.abs(balance - balance[:1]), initial=0.0))),  # no sample where it cannot start
     }
 
@@ -157,23 +156,24 @@ def _constrained(request: Request, problem: Problem, trajectory: Trajectory) -> 
     }
 
 
-def _multipliers(problem: Problem, trajectory: Trajectory, column: Callable[[Floats], Column]) -> Document:
+def _multipliers(problem: Problem, trajectory: Trajectory, column: Writer) -> Document:
     """The multipliers as far as they are unique, and what holds what was released."""
     reactions, found = trajectory.reactions, trajectory.estimate
     if reactions is None:
         return {}
     known = None if found is None else found.multipliers
     return {
-        name: column(rounded(reactions.multipliers[:, k], _doubts(known, k, len(trajectory.times))))
+        name: column.write(column.shorten(reactions.multipliers[:, k], _doubts(known, k, len(trajectory.times))))
         for k, name in _unique(problem)
     }
 
 
-def _friction(frictions: Mapping[str, FrictionForce], column: Callable[[Floats], Column]) -> Document:
+def _friction(frictions: Mapping[str, FrictionForce], column: Writer) -> Document:
     """R and F₀ of each load with friction."""
 
     def written(values: Floats) -> Column:
-        return column(rounded(values, np.full(len(values), UNKNOWN_ERROR * max(1.0, np.abs(values).max(initial=0.0)))))
+        doubt = UNKNOWN_ERROR * max(1.0, np.abs(values).max(initial=0.0))
+        return column.write(column.shorten(values, np.full(len(values), doubt)))
 
     return {name: {"force": written(each.force), "largest": written(each.largest)} for name, each in frictions.items()}
 

@@ -95,7 +95,7 @@ def _combined(columns: list[Floats], how: str) -> list[Floats]:
 
 
 def _answered(asked: EnsembleRequest, scene: Scene, varied: Varied, found: EnsembleMotion) -> Document:
-    written, names = WRITERS[asked.columns], [coordinate.name for coordinate in scene.free]
+    written, names = WRITERS[asked.columns].write, [coordinate.name for coordinate in scene.free]
     answer: Document = {
         "runs": len(found.outcomes),
         "t": written(found.times),
@@ -123,7 +123,7 @@ def _reached(values: Floats, written: Callable[[Floats], Column]) -> Column:
 
 def _statistics(asked: EnsembleRequest, names: list[str], found: EnsembleMotion) -> Document:
     """Over the runs that reached a sample; a sample that none reached is left out, with all behind it."""
-    written, answer = WRITERS[asked.columns], Document()
+    written, answer = WRITERS[asked.columns].write, Document()
     reached = int(np.isfinite(found.values).any(axis=(0, 2)).sum())
     values = found.values[:, :reached]
     if "mean" in asked.statistics:

@@ -10,6 +10,7 @@ from .problem import Floats
 
 GUARD_DIGITS = 3  # below the first digit in doubt
 MOST_DIGITS = 15
+GUARD_BITS, SMALLEST_ERROR = 8, 1e-15  # the same for numbers that are rounded by bits
 EXACT = 22  # powers of ten up to this one are doubles
 WHOLE = 2.0**52  # from here on doubles are whole numbers, and without decimals
 
@@ -25,6 +26,18 @@ def rounded(values: Floats, errors: Floats) -> Floats:
         chosen = decimals == count
         result[chosen] = _with_decimals(result[chosen], int(count))
     return result + 0.0  # no negative zero
+
+
+def rounded_to_bits(values: Floats, errors: Floats) -> Floats:
+    """The same by bits: multiples of a power of two a few digits below the error, whose last bytes are zero.
+
+    `values` has shape (samples, …), `errors` shape (samples,); returns the shape of `values`.
+    """
+    _, exponents = np.frexp(np.maximum(np.abs(errors), SMALLEST_ERROR))
+    units = np.ldexp(1.0, exponents - GUARD_BITS).reshape(-1, *(1,) * (values.ndim - 1))
+    counts = values / units
+    is_many = np.abs(counts) >= WHOLE
+    return np.where(is_many, values, np.round(np.where(is_many, 0.0, counts)) * units) + 0.0
 
 
 def short(value: float, digits: int = 3) -> float:

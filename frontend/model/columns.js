@@ -1,0 +1,54 @@
+/** The numbers of a motion as the server packs them: in less room than decimals, and quicker to write and to read. */
+
+/** @typedef {import("./types.js").Trajectory} Trajectory */
+/** @typedef {import("./types.js").Answered<"/simulations">} Answer */
+
+const DOUBLE = 8;
+
+/** Numbers whose bytes come plane by plane: all first bytes, then all second ones … @param {string} packed @returns {number[]} */
+export function numbersOf(packed) {
+  const planes = atob(packed);
+  const count = planes.length / DOUBLE;
+  const bytes = new Uint8Array(planes.length);
+  for (let plane = 0; plane < DOUBLE; plane += 1)
+    for (let i = 0; i < count; i += 1) bytes[i * DOUBLE + plane] = planes.charCodeAt(plane * count + i);
+  const view = new DataView(bytes.buffer);
+  return Array.from({ length: count }, (_, i) => view.getFloat64(i * DOUBLE, true));
+}
+
+/** @typedef {Answer["t"]} Column */
+/** @typedef {NonNullable<Answer["positions"]>[string]} Rows */
+
+/** @param {Column} column */
+const asNumbers = (column) => (typeof column === "string" ? numbersOf(column) : column);
+
+/** @template C, W @param {Record<string, C> | null | undefined} columns @param {(column: C) => W} change */
+const each = (columns, change) =>
+  columns && Object.fromEntries(Object.entries(columns).map(([name, column]) => [name, change(column)]));
+
+/** The motion with plain numbers in all of its columns. @param {Answer} answer @returns {Trajectory} */
+export function unpacked(answer) {
+  const t = asNumbers(answer.t);
+  /** @param {Rows} rows */
+  const asRows = (rows) => {
+    if (typeof rows !== "string") return rows;
+    const numbers = numbersOf(rows);
+    const wide = t.length ? numbers.length / t.length : 0;
+    return t.map((_, i) => numbers.slice(i * wide, (i + 1) * wide));
+  };
+  const { coordinates, rates, positions, loads, multipliers, friction, energy } = answer;
+  const { drift, ...energies } = energy ?? {};
+  const made = {
+    ...answer,
+    columns: "numbers",
+    t,
+    coordinates: each(coordinates, asNumbers),
+    rates: each(rates, asNumbers),
+    positions: each(positions, asRows),
+    loads: each(loads, asRows),
+    multipliers: each(multipliers, asNumbers),
+    friction: each(friction, ({ force, largest }) => ({ force: asNumbers(force), largest: asNumbers(largest) })),
+    energy: energy && { ...each(energies, asNumbers), drift },
+  };
+  return /** @type {Trajectory} */ (made);
+}
