@@ -5,15 +5,18 @@
 
 const DOUBLE = 8;
 
-/** Numbers whose bytes come plane by plane: all first bytes, then all second ones … @param {string} packed @returns {number[]} */
+/**
+ * Numbers whose bytes come plane by plane: all first bytes, then all second ones …, little-endian, as is every machine
+ * that a browser runs on.
+ * @param {string} packed @returns {number[]}
+ */
 export function numbersOf(packed) {
   const planes = atob(packed);
-  const count = planes.length / DOUBLE;
-  const bytes = new Uint8Array(planes.length);
-  for (let plane = 0; plane < DOUBLE; plane += 1)
-    for (let i = 0; i < count; i += 1) bytes[i * DOUBLE + plane] = planes.charCodeAt(plane * count + i);
-  const view = new DataView(bytes.buffer);
-  return Array.from({ length: count }, (_, i) => view.getFloat64(i * DOUBLE, true));
+  const doubles = new Float64Array(planes.length / DOUBLE);
+  const bytes = new Uint8Array(doubles.buffer);
+  for (let plane = 0, from = 0; plane < DOUBLE; plane += 1)
+    for (let to = plane; to < bytes.length; to += DOUBLE, from += 1) bytes[to] = planes.charCodeAt(from);
+  return Array.from(doubles);
 }
 
 /** @typedef {Answer["t"]} Column */
