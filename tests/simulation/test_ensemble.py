@@ -56,6 +56,20 @@ def test_one_run_may_fail_and_the_others_not() -> None:
     assert np.isfinite(found.values[[0, 2]]).all()
 
 
+@pytest.mark.parametrize("rate", [1e2, 1e3])
+def test_fast_motions_begin_with_short_steps(rate: float) -> None:
+    """The longest step is a part of the span, and holds many turns of x″ = −ω²x, whose coefficients overflow there."""
+    problem = problem_of(oscillator(f"-{rate * rate}*m*x", x=1.0, u=0.0), 20.0 * 100.0 / rate, 11)
+    states = np.array([[1.0, 0.0], [0.0, rate], [1e-3, 0.0]])
+    states = np.vstack([states, [[1.0, 0.0]] * 9])  # more than lanes: others take up where these end
+    found = run_ensemble(Ensemble(problem, states, np.repeat([problem.parameters], 12, axis=0)), 1e-8)
+    assert {outcome.status for outcome in found.outcomes} == {"ok"}
+    phases = rate * found.times
+    for index, truth in enumerate((np.cos(phases), np.sin(phases), 1e-3 * np.cos(phases))):
+        np.testing.assert_allclose(found.values[index, :, 0], truth, atol=1e-8)
+    np.testing.assert_array_equal(found.values[3:, :, 0], found.values[[0] * 9, :, 0])
+
+
 def test_forces_that_jump_are_run_one_by_one() -> None:
     problem = problem_of(oscillator("-m*sign(x)", x=0.5, u=0.0), 4.0, 5)
     found = run_ensemble(

@@ -19,6 +19,7 @@ from .taylor import ALWAYS_UNNOTICED, LEAST_OF_SURPRISING, MOST_ORDERS, SHORTER,
 
 LANES = 8
 GOES_ON, RESTS, ENDED = 1, 2, 3
+SMALLER, MOST_UNITS = 2.0**-12, 8  # of the unit of time, where the first coefficients are out of range
 Integers = NDArray[np.int64]
 
 
@@ -46,7 +47,7 @@ class Lanes(NamedTuple):
     `program` (1,). The states `old` and `new`, their rests `old_rest` and `new_rest` and `slopes` have shape (width,
     lanes). `before` and `now` are times, `sizes` steps, `units` units of time, `least` the largest step that may be
     tried, and `sizes_before` the steps last taken, shape (lanes,); `member` is the number of a motion, −1 for none, and
-    `is_pending` whether a step waits for its verdict.
+    `is_pending` whether a step waits for its verdict (1), or, negative, how often the first series was out of range.
     """
 
     address: int
@@ -177,11 +178,27 @@ def sample_lane(lanes: Lanes, row: int, lane: int, members: Members) -> None:
 
 
 @inline
+def begin_again(lanes: Lanes, lane: int, outcome: int) -> int:
+    """0 if a motion's first series, whose coefficients are out of range, is found again in a smaller unit of time.
+
+    The first unit is the longest step, within which a fast motion may turn many times. Else the outcome, negative.
+    """
+    if outcome == SINGULAR or lanes.is_pending[lane] <= -MOST_UNITS:
+        return -outcome
+    for d in range(2 * lanes.degrees):
+        if not abs(lanes.new[d, lane]) <= LARGEST_VALUE:
+            return -outcome
+    lanes.is_pending[lane] -= 1
+    lanes.sizes[lane] *= SMALLER
+    return 0
+
+
+@inline
 def judge_lane(lanes: Lanes, row: int, lane: int, members: Members, tolerance: float) -> int:
     """What becomes of the step before: accepted (1), or taken back (0); a negative number ends the motion."""
     outcome = state_of(lanes, row, lane)
-    if lanes.is_pending[lane] == 0:
-        return 1 if outcome == FINE else -outcome
+    if lanes.is_pending[lane] <= 0:
+        return 1 if outcome == FINE else begin_again(lanes, lane, outcome)
     h = lanes.sizes_before[lane]
     defect = defect_in(lanes, row, lane) if outcome == FINE else np.inf
     if defect > max(UNNOTICED * tolerance, ALWAYS_UNNOTICED) and lanes.least[lane] > LEAST_OF_SURPRISING * h:
@@ -245,7 +262,7 @@ def advance_all(lanes: Lanes, row: int) -> None:
 def rest_and_advance(lanes: Lanes, row: int) -> None:
     """Lanes whose step is planned go it; the others stay where they are, with a step of length 0 for this round."""
     for lane in range(LANES):
-        if lanes.is_pending[lane] == 0:
+        if lanes.is_pending[lane] <= 0:
             lanes.sizes_before[lane] = lanes.sizes[lane]
             lanes.sizes[lane] = 0.0
             for k in range(1, lanes.order + 1):
@@ -253,7 +270,7 @@ def rest_and_advance(lanes: Lanes, row: int) -> None:
                     lanes.coefficients[row, k, d, lane] = 0.0
     advance_all(lanes, row)
     for lane in range(LANES):
-        if lanes.is_pending[lane] == 0:
+        if lanes.is_pending[lane] <= 0:
             lanes.sizes[lane] = lanes.sizes_before[lane]
 
 
