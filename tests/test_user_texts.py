@@ -156,7 +156,7 @@ def test_there_are_many_payloads() -> None:
     assert len(CORPUS) >= 200
 
 
-@pytest.mark.one_in(4)
+@pytest.mark.one_in(8)
 @pytest.mark.parametrize("part", PARTS)
 def test_no_payload_is_live_in_a_derivation(part: list[str]) -> None:
     harmless = {(lang, plain): forms_of(handout(plain, lang)) for lang in LANGUAGES for plain in (PLAIN, "")}
@@ -207,7 +207,7 @@ def _hints(told: Mapping[str, object]) -> list[object]:
     return hints
 
 
-@pytest.mark.one_in(4)
+@pytest.mark.one_in(8)
 @pytest.mark.parametrize("part", PARTS)
 def test_no_payload_is_live_in_questions(part: list[str]) -> None:
     harmless = {(lang, text): (stack(text, lang), statements(text, lang)) for lang in LANGUAGES for text in (PLAIN, "")}

@@ -34,7 +34,7 @@ def further(scene: Scene) -> list[str]:
     return ["constraints"] * bool(scene.constraints) + ["contact"] * jumps
 
 
-@pytest.mark.one_in(9)
+@pytest.mark.one_in(18)
 @pytest.mark.parametrize("language", ["de", "en"])
 @pytest.mark.parametrize("scene", scene_ids())
 async def test_every_scene_is_derived(client: httpx.AsyncClient, scene: str, language: str) -> None:

@@ -33,6 +33,7 @@ def bodies() -> Iterator[Any]:
                 yield pytest.param(address, media_type, body, id=f"{path} {media_type} {i}")
 
 
+@pytest.mark.one_in(2)
 @pytest.mark.parametrize(("address", "media_type", "body"), [*bodies()])
 async def test_each_body_is_answered(client: httpx.AsyncClient, address: str, media_type: str, body: Any) -> None:
     sent = {"content": body, "headers": {"content-type": media_type}} if isinstance(body, str) else {"json": body}

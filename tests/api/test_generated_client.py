@@ -91,6 +91,7 @@ def examples() -> Iterator[Any]:
                 yield pytest.param(name, model, body, id=f"{name}-{number}")
 
 
+@pytest.mark.one_in(3)
 @pytest.mark.parametrize(("name", "model", "body"), [*examples()])
 def test_documented_examples_run(client: Any, name: str, model: str, body: dict[str, Any]) -> None:
     asked = getattr(part("models"), model).from_dict(body)
@@ -204,6 +205,7 @@ def statuses(tmp_path_factory: pytest.TempPathFactory, server: str) -> dict[str,
     return {str(name): int(status) for name, status in json.loads(done.stdout).items()}
 
 
+@pytest.mark.one_in(3)
 @pytest.mark.parametrize("name", [one.name for one in (*CALLS, *OWN_CALLS)])
 def test_what_is_documented_runs_in_typescript_without_a_cast(statuses: dict[str, int], name: str) -> None:
     assert statuses[name] == 200

@@ -174,6 +174,7 @@ async def test_file(browser: httpx.AsyncClient, path: str, media_type: str, last
     assert (again.status_code, again.content) == (304, b"")
 
 
+@pytest.mark.one_in(3)
 @pytest.mark.parametrize(
     "path",
     [

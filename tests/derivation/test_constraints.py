@@ -29,6 +29,7 @@ def result(name: str) -> Result:
     return result_of(derived(name)[0])
 
 
+@pytest.mark.one_in(2)
 @pytest.mark.parametrize("formulation", ["dalembert-lagrange", "hamilton"])
 @pytest.mark.parametrize("name", SCENES)
 def test_every_step_holds_exactly(name: str, formulation: str) -> None:

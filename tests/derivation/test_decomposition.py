@@ -108,7 +108,7 @@ def test_a_potential_that_depends_on_time() -> None:
     assert system.load_potential("push") == -system.q("k") * system.q("x") * sp.sin(system.q("w") * system.t)
 
 
-@pytest.mark.one_in(2)
+@pytest.mark.one_in(4)
 @pytest.mark.parametrize(
     "force",
     [

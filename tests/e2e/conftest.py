@@ -12,10 +12,13 @@ from tests.e2e.lecture import Lecture
 from tests.e2e.waiting import PATIENCE
 
 # A browser without a graphics card draws with the processor: at sixty pictures a second half of one goes to a pendulum
-# that nobody looks at. Fifteen show all that tests look for; those of the motion itself are marked `smooth`.
+# that nobody looks at. The first comes at once and four a second follow, which show all that tests look for; those of
+# the motion itself are marked `smooth`.
 FEWER_PICTURES = """{
   const next = window.requestAnimationFrame.bind(window);
-  window.requestAnimationFrame = (draw) => setTimeout(() => next(draw), 50);
+  let drawn = -Infinity;
+  window.requestAnimationFrame = (draw) =>
+    setTimeout(() => next((now) => draw((drawn = now))), Math.max(0, drawn + 250 - performance.now()));
   window.cancelAnimationFrame = clearTimeout;
 }"""
 

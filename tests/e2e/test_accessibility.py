@@ -212,7 +212,7 @@ def by_turns(places: list[Any]) -> list[Any]:
     return [pytest.param(*place.values, lang, id=place.id) for place, lang in zip(places, languages, strict=False)]
 
 
-@pytest.mark.one_in(5)
+@pytest.mark.one_in(8)
 @pytest.mark.parametrize(("place", "ready", "first", "language"), by_turns(PLACES))
 def test_page(
     lecture: Lecture,
@@ -228,6 +228,7 @@ def test_page(
     assert violations_in_both_themes(page, axe) == []
 
 
+@pytest.mark.one_in(2)
 @pytest.mark.parametrize(("place", "ready", "first", "language"), by_turns(DIALOGS))
 def test_dialog(
     lecture: Lecture, axe: str, place: str, ready: str, first: Callable[[Page], None], language: str
@@ -238,6 +239,7 @@ def test_dialog(
     assert violations_in_both_themes(page, axe) == []
 
 
+@pytest.mark.one_in(2)
 @pytest.mark.parametrize(
     "place", ["?", "scene?scene=elastic-pendulum&view=", "homework?", "homework?side=sheet", "labs?"]
 )

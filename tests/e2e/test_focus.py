@@ -57,6 +57,7 @@ SCENE = "scene?scene=elastic-pendulum&lang=de"
 HOMEWORK = "homework?scene=pendulum&task=equation:phi&lang=en"
 
 
+@pytest.mark.one_in(3)
 @pytest.mark.parametrize(
     ("place", "ready", "forced"),
     [

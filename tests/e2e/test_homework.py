@@ -73,6 +73,7 @@ def test_wrong_diagnosed_corrected_correct(lecture: Lecture) -> None:
     expect(page.locator(".total")).to_contain_text("3 of 26 points")
 
 
+@pytest.mark.one_in(2)
 @pytest.mark.parametrize(
     ("typed", "latex"),
     [
@@ -121,6 +122,7 @@ def test_a_formula_is_typed_and_keyed(lecture: Lecture) -> None:
     expect(page.locator(".verdict-card.stale")).to_have_count(0)
 
 
+@pytest.mark.one_in(2)
 @pytest.mark.parametrize(
     ("task", "typed"),
     [

@@ -121,6 +121,7 @@ def test_bad_values_are_told_and_nothing_is_lost(lecture: Lecture) -> None:
     lecture.complaints.clear()
 
 
+@pytest.mark.one_in(2)
 @pytest.mark.parametrize("lang", ["de", "en"])
 def test_a_phone_shows_all_of_it(lecture: Lecture, lang: str) -> None:
     lecture.page.set_viewport_size({"width": 360, "height": 740})

@@ -180,6 +180,7 @@ def test_a_swipe_turns_the_page(hall: Lecture) -> None:
     expect(page.locator(".slide .step")).to_have_attribute("data-step", "virtual-displacement:bob")
 
 
+@pytest.mark.one_in(2)
 @pytest.mark.parametrize(
     ("width", "height"),
     [
@@ -207,6 +208,7 @@ SAMPLE = {
 }
 
 
+@pytest.mark.one_in(2)
 @pytest.mark.parametrize(
     ("width", "height"),
     [
@@ -228,6 +230,7 @@ def test_formulas_fill_the_slide(hall: Lecture, width: int, height: int) -> None
     assert max(slide.size for slide in found) <= 0.08
 
 
+@pytest.mark.one_in(2)
 @pytest.mark.parametrize(("width", "height"), [(1366, 768), (3840, 2160)])
 def test_nothing_is_smaller_in_full_screen(hall: Lecture, width: int, height: int) -> None:
     page = hall.page

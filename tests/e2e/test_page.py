@@ -27,6 +27,7 @@ def parameters_of(request: Request) -> object:
     return (request.post_data_json or {}).get("parameters")
 
 
+@pytest.mark.one_in(2)
 @pytest.mark.parametrize("scene", SCENES)
 def test_all_steps_are_revealed_and_typeset(lecture: Lecture, scene: str) -> None:
     lecture.open(f"?scene={scene}&lang=de")

@@ -115,6 +115,7 @@ def test_wrapped_angles_and_axes_are_chosen_in_the_menu(lecture: Lecture) -> Non
     expect(page.locator(".plot-menu summary")).to_be_focused()
 
 
+@pytest.mark.one_in(2)
 @pytest.mark.parametrize("scene", ["double-pendulum", "four-bar"])
 def test_names_of_curves_keep_off_each_other_on_a_phone(lecture: Lecture, scene: str) -> None:
     """Above each row its names in one line: none on another, on the menu or out of the page; all can be scrolled to."""

@@ -92,6 +92,7 @@ def test_what_is_scrolled_back_to_is_drawn_again(long: Lecture) -> None:
     expect(formula.locator(".katex-html").first).to_be_visible()
 
 
+@pytest.mark.one_in(2)
 def test_a_formula_is_there_also_where_rows_cannot_be_fetched(either: Lecture) -> None:
     page = either.page
     refused: list[str] = []

@@ -35,6 +35,7 @@ def test_the_address_leads_back_and_has_a_code(shared: Lecture) -> None:
     expect(page.locator("dialog")).to_have_count(0)
 
 
+@pytest.mark.one_in(3)
 @pytest.mark.parametrize(
     ("name", "file", "holds"),
     [
@@ -194,6 +195,7 @@ def test_a_sheet_that_is_printed_at_once_is_not_made_small(lecture: Lecture, tmp
     page.wait_for_function("() => window.small === 0")
 
 
+@pytest.mark.one_in(2)
 def test_a_sheet_is_shown_when_it_can_be_printed(either: Lecture, tmp_path: Path) -> None:
     """Not before it has come how long formulas are set, whose rows would be missing on paper."""
     page, held = either.page, list[Route]()

@@ -101,6 +101,7 @@ def test_every_scene_has_a_card(start: Lecture) -> None:
     assert [card.get_attribute("data-scene") for card in cards.all()] == scenes
 
 
+@pytest.mark.one_in(2)
 @pytest.mark.parametrize("width", [pytest.param(1920, id="wide"), pytest.param(360, id="phone")])
 def test_every_page_is_two_clicks_from_every_page(lecture: Lecture, width: int) -> None:
     """One click on the navigation, and one on the button that shows it where there is no room."""
@@ -135,6 +136,7 @@ def test_old_addresses_of_scenes_lead_to_them(lecture: Lecture, page: Page) -> N
     expect(page).to_have_url(re.compile(r"/scene\?.*edit=form"))
 
 
+@pytest.mark.one_in(3)
 @pytest.mark.usefixtures("bundle")
 @pytest.mark.parametrize(
     ("place", "ready"),

@@ -15,6 +15,7 @@ def test_wrong_answers_are_wrong_and_their_mistakes_found(scene: str, part: int)
     assert_mistakes_are_found(scene, part, PARTS)
 
 
+@pytest.mark.one_in(2)
 @pytest.mark.parametrize("scene", LONG)
 def test_a_hint_names_only_what_the_mistake_is_about(scene: str) -> None:
     assert_hints_are_whole(scene)

@@ -214,6 +214,7 @@ def rows(latex: str) -> list[str]:
     return [row.rpartition("&")[2].removeprefix("=").strip() for row in re.split(r"\\\\\[0\.\d+em\]", inside)]
 
 
+@pytest.mark.one_in(3)
 @pytest.mark.parametrize("scene", [*SCENES[::5], "rolling-disc", "wind-on-rod"])
 def test_the_wrong_block_is_wrong_and_its_twin_is_right(scene: str) -> None:
     """What they say is taken as the answer to the task that asks for just that."""
@@ -275,6 +276,7 @@ def test_the_first_mistake_is_told_in_words() -> None:
     assert said(MODEL[:-1]) == (f"Not right yet. “Lagrange function” ({MODEL[-1]}) is missing.", [MODEL[-1]])
 
 
+@pytest.mark.one_in(2)
 @pytest.mark.parametrize("scene", ["pendulum", "double-pendulum", "guided-pendulum", "quarter-car", "heavy-top"])
 def test_blocks_say_what_the_steps_of_the_derivation_say(scene: str) -> None:
     """Each row of a block is the end of a row of a step with the same title, whoever's; but for the wrong block."""

@@ -61,6 +61,7 @@ def reports(name: str) -> tuple[Report, ...]:
     return tuple(get_experiment(name).run(QUESTIONS[name]))
 
 
+@pytest.mark.one_in(4)
 @pytest.mark.parametrize("name", QUESTIONS)
 @pytest.mark.parametrize("lang", ["de", "en"])
 def test_charts_are_valid_figures_from_the_first_report_on(name: str, lang: str) -> None:
@@ -134,6 +135,7 @@ def test_date_and_load_stand_in_the_caption_also_where_no_load_is_known(
     assert " – " in caption
 
 
+@pytest.mark.one_in(2)
 @pytest.mark.parametrize("name", ["convergence", "work-precision"])
 def test_a_run_without_a_result_has_no_number_in_the_table(name: str) -> None:
     stiff = {"scene": "elastic-pendulum", "t_end": 0.2, "parameters": {"k": 1e8}, "methods": ["explicit-euler", "rk4"]}

@@ -34,6 +34,7 @@ def converged() -> Document:
     return last(CONVERGENCE.run({"scene": "elastic-pendulum", "t_end": 4.0}))
 
 
+@pytest.mark.one_in(3)
 @pytest.mark.parametrize("method", method_ids())
 def test_the_slope_is_the_order(converged: Document, method: str) -> None:
     orders = converged["orders"]

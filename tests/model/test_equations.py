@@ -24,7 +24,7 @@ def mass_matrices(table: np.ndarray, n: int) -> np.ndarray:
     return matrices
 
 
-@pytest.mark.one_in(7)
+@pytest.mark.one_in(14)
 @pytest.mark.parametrize("name", all_scenes())
 def test_mass_matrix_and_forcing_are_those_of_lagranges_method(name: str) -> None:
     scene = get_scene(name)

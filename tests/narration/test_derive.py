@@ -58,7 +58,7 @@ def told(scene: str, formulation: str) -> dict[str, Any]:
     return derived.told(scene, LANGUAGE[formulation], formulation)
 
 
-@pytest.mark.one_in(6)
+@pytest.mark.one_in(12)
 @pytest.mark.parametrize("formulation", formulation_names())
 @pytest.mark.parametrize("scene", scene_ids())
 def test_every_scene_is_told(scene: str, formulation: str) -> None:

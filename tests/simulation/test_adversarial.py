@@ -72,6 +72,7 @@ def test_drive_at_the_rate_of_the_samples_is_no_alarm() -> None:
     assert not verdict.is_false_alarm, told(verdict)
 
 
+@pytest.mark.one_in(2)
 @pytest.mark.parametrize("light", [1.7e-7, 3.3e-8, 1e-9])
 def test_rounding_with_a_light_mass_is_told(light: float) -> None:
     """The scene is not singular, and the estimate covers the error of M's last digits whether or not it is small."""

@@ -203,6 +203,7 @@ def test_pieces_follow_one_another() -> None:
         Pieces((1.0,), ())
 
 
+@pytest.mark.one_in(2)
 @pytest.mark.parametrize(("light", "tolerance"), [(1e-5, 1e-11), (1.7e-7, 1e-11), (3.3e-8, 1e-9), (1e-10, 1e-6)])
 def test_an_ill_conditioned_mass_matrix_is_told(light: float, tolerance: float) -> None:
     """A light mass and a heavy one, each on its own spring to the wall, in relative coordinates x1 and w = x2 − x1.

@@ -79,7 +79,7 @@ CASES = [pytest.param(*case, id=f"{case[0]} {case[1]} {case[2]:g}") for case in 
 ]
 
 
-@pytest.mark.one_in(8)
+@pytest.mark.one_in(16)
 @pytest.mark.parametrize(("name", "identifier", "tolerance"), CASES)
 def test_a_tolerance_is_the_error_of_the_answer(name: str, identifier: str, tolerance: float) -> None:
     """True error ≤ estimate ≤ tolerance at every sample, by a reference that knows its own error."""

@@ -55,6 +55,7 @@ def simulated(start: tuple[float, float], method: str, t_end: float = 10.0, **ac
     return simulate(problem_of(on_string(*start), t_end), get_method(method), **accuracy)
 
 
+@pytest.mark.one_in(4)
 @pytest.mark.parametrize("start", STARTS)
 @pytest.mark.parametrize("method", method_ids())
 def test_every_method_finds_when_the_string_goes_slack(method: str, start: tuple[float, float]) -> None:

@@ -68,7 +68,7 @@ def stretches(found: Trajectory) -> list[tuple[int, int]]:
     return [part for part, flies in zip(parts, is_open, strict=True) if flies]
 
 
-@pytest.mark.one_in(3)
+@pytest.mark.one_in(6)
 @pytest.mark.parametrize("name", scene_ids())
 def test_integrals_are_constant(name: str) -> None:
     scene = load_scene(name)

@@ -73,6 +73,7 @@ def energy_error(identifier: str, periods: int, step: float) -> np.ndarray:
     return np.abs(total - total[0]) / np.ptp(seen.kinetic)
 
 
+@pytest.mark.one_in(2)
 @pytest.mark.parametrize("identifier", [*SYMPLECTIC, "newmark"])
 def test_energy_over_a_hundred_thousand_periods(identifier: str) -> None:
     """Bounded: the last tenth is no worse than the first."""

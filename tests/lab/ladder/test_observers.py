@@ -99,6 +99,7 @@ def test_turning_that_is_felt_is_extent() -> None:
     assert measured(scene, 5.0).extent == pytest.approx(2.0 * length * math.sin(0.6), rel=1e-3)
 
 
+@pytest.mark.one_in(2)
 @pytest.mark.parametrize("angle", [pytest.param(1.2, id="wide"), pytest.param(0.05, id="small")])
 @pytest.mark.parametrize("speed", [pytest.param(10.0, id="10 m/s"), pytest.param(-300.0, id="300 m/s")])
 def test_a_cart_may_roll_as_fast_as_it_likes(speed: float, angle: float) -> None:
