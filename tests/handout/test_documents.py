@@ -28,7 +28,7 @@ COMMANDS = set(
     smallskip hspace textit title author date begin end maketitle paragraph section textbackslash textasciitilde
     textasciicircum varphi partial frac ell mathbf dot sin text mathrm delta cos left right vartheta psi omega
     cdot ddot Omega beta kappa int Longleftrightarrow approx sqrt det alpha pi lambda varepsilon neq leq arcsin
-    Delta Lambda
+    Delta Lambda boldsymbol
     arccos arctan surd tfrac theta phi gamma eta mu rho sigma tau Phi tan exp ln le ge to zeta xi nu chi infty quad
     qquad operatorname times sum pm mathcal
 """,

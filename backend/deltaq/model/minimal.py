@@ -1,9 +1,10 @@
-"""Coordinates that keep holonomic constraints by themselves: one is given up for each constraint, in closed form.
+"""Coordinates that keep constraints on positions by themselves: one is given up for each, in closed form.
 
-The constraints g(q, t) = 0 are solved one after another, for a coordinate that stands in them linearly, for an angle
-in place of the two or three coordinates of a point at a given distance, for an angle whose sine and cosine stand in
-them linearly (atan2, acos), for two such equations of a loop at once, or by a root. Which of several solutions is the
-scene's own is told by a motion of it: coordinates X(s, t) are found only if they give that motion throughout.
+Constraints on rates count where they can be integrated (`integrated.py`). The constraints g(q, t) = 0 are solved one
+after another, for a coordinate that stands in them linearly, for an angle in place of the two or three coordinates of a
+point at a given distance, for an angle whose sine and cosine stand in them linearly (atan2, acos), for two such
+equations of a loop at once, or by a root. Which of several solutions is the scene's own is told by a motion of it:
+coordinates X(s, t) are found only if they give that motion throughout.
 Sources: Goldstein, Poole, Safko, Classical Mechanics, 3rd ed., §1.3; McCarthy, Geometric Design of Linkages, ch. 2
 (closed loops of four bars).
 """
@@ -22,6 +23,7 @@ from ..mechanics.scene import Scene
 from .compiled import Floats, compile_expressions
 from .equations import guided_into
 from .functions import Expr
+from .integrated import exactly, integrated
 from .minimal_ways import Unsolved, Way, ways
 from .symbols import CLOCK, Symbols
 from .symengine_algebra import to_symengine
@@ -53,21 +55,34 @@ class Solution:
 
 
 def solution(scene: Scene, columns: Mapping[str, Floats]) -> Solution | None:
-    """Minimal coordinates for a scene with holonomic constraints; None where no closed form is found.
+    """Minimal coordinates for a scene with constraints that bind positions; None where no closed form is found.
 
     `columns` are the free coordinates along a motion of the scene and its times, under `t`: shape (samples,) each.
     """
-    if not all(condition.is_holonomic for condition in scene.conditions):
+    kept = kept_positions(scene, columns)
+    if kept is None:
         return None
-    found = (each.found for each in islice(_search(_begun(scene, columns)), MOST) if not each.unsolved.conditions)
+    found = (each.found for each in islice(_search(_begun(scene, columns, kept)), MOST) if not each.unsolved.conditions)
     return next(found, None)
 
 
-def _begun(scene: Scene, columns: Mapping[str, Floats]) -> _Branch:
+def kept_positions(scene: Scene, columns: Mapping[str, Floats]) -> tuple[Expr, ...] | None:
+    """g(q, t) of every constraint, those on rates integrated from where a motion begins; None where one cannot be."""
+    symbols = Symbols.of(scene)
+    stated = {each.name: each.value for each in scene.coordinates}
+    first = {name: exactly(float(columns[name][0]), stated[name]) for name in symbols.free}
+    start = {symbols.values[name]: value for name, value in first.items()}
+    start[symbols.time] = exactly(float(columns[CLOCK][0]), 0.0)
+    written = [guided_into(scene, to_symengine(each.value, symbols)) for each in scene.conditions]
+    pairs = zip(written, scene.conditions, strict=True)
+    found = [value if each.is_holonomic else integrated(value, symbols, start) for value, each in pairs]
+    return None if any(value is None for value in found) else tuple(found)
+
+
+def _begun(scene: Scene, columns: Mapping[str, Floats], conditions: tuple[Expr, ...]) -> _Branch:
     own, count = Symbols.of(scene), 2 * len(scene.constraints)
     spare = tuple(f"{SPARE}{k}" for k in range(count))
     symbols = replace(own, guided=(*own.guided, *spare))
-    conditions = tuple(guided_into(scene, to_symengine(each.value, own)) for each in scene.conditions)
     lengths = tuple(symbols.values[each.name] for each in scene.parameters if each.positive)
     free = {name: symbols.values[name] for name in own.free}
     unsolved = Unsolved(conditions, free, lengths, scene.dimension, is_down=scene.drawing.vertical == "down")

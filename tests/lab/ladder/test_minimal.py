@@ -20,6 +20,8 @@ from deltaq.mechanics.changes import change
 from deltaq.mechanics.document import read_scene
 from deltaq.mechanics.library import load_scene
 from deltaq.mechanics.scene import Scene
+from deltaq.model.minimal import kept_positions
+from deltaq.model.symbols import Symbols
 from deltaq.simulation.driver import simulate
 from deltaq.simulation.library import get_method
 from deltaq.simulation.service import problem_of
@@ -136,6 +138,66 @@ def _begun(scene: Scene, values: Mapping[str, tuple[float, float]]) -> Scene:
         for each in scene.coordinates
     )
     return replace(scene, coordinates=coordinates)
+
+
+def disc(rolling: str, begin: Mapping[str, tuple[float, float]], **more: Any) -> Scene:
+    """A disc that rolls down an incline, s along it: the rates are tied, not the positions."""
+    return read_scene(
+        {
+            "dimension": 2,
+            "coordinates": [{"name": q, "value": value, "rate": rate} for q, (value, rate) in begin.items()],
+            "parameters": [
+                {"name": name, "value": value}
+                for name, value in {"m": 1.3, "R": 0.4, "g": 9.81, "alpha": 0.2, "u": 0.5}.items()
+            ],
+            "bodies": [
+                {"name": "disc", "kind": "rigid", "mass": "m", "inertia": "m*R^2/2", "angle": "phi",
+                 "position": ["s*cos(alpha)", "-s*sin(alpha)"]}
+            ],
+            "loads": [{"kind": "gravity", "name": "weight", "acceleration": ["0", "-g"]}],
+            "constraints": [{"kind": "equation", "name": "rolling", "equation": rolling}],
+        }
+        | more
+    )  # fmt: skip
+
+
+@pytest.mark.parametrize(
+    ("rolling", "rate"),
+    [
+        pytest.param("dot(s) = R*dot(phi)", 1.0, id="on an incline at rest"),
+        pytest.param("dot(s) = R*dot(phi) + u", 1.5, id="on one that moves along itself"),
+    ],
+)
+def test_rolling_ties_positions_where_it_can_be_integrated(rolling: str, rate: float) -> None:
+    """s̈ = ⅔ g sin α; the turn lags behind by what the scene begins with, and by what the incline runs."""
+    scene = disc(rolling, {"s": (0.7, rate), "phi": (0.3, 2.5)})
+    below = in_minimal_coordinates(scene, 2.0)
+    assert len(below.scene.free) == scene.degrees_of_freedom == 1
+    assert not below.scene.constraints
+    ((name, (value, speed)),) = below.begins.items()
+    run = simulate(problem_of(below.scene, 2.0, 21), get_method("dop853"), tolerance=1e-10)
+    times = run.times
+    wanted = 0.7 + rate * times + 9.81 * math.sin(0.2) * times**2 / 3
+    belt = (rate - 1.0) * times
+    turned = 0.3 + (wanted - 0.7 - belt) / 0.4
+    column = run.values[:, 0]
+    assert column == pytest.approx(wanted if name == "s" else turned, abs=1e-8)
+    assert (value, speed) == pytest.approx((0.7, rate) if name == "s" else (0.3, 2.5))
+
+
+def test_a_form_that_is_exact_is_integrated_and_another_is_not() -> None:
+    """(1 + 2 s φ) ṡ + s² φ̇ is d/dt (s + s² φ); φ ṡ − s φ̇ is no rate of anything."""
+    begin = {"s": (0.7, 0.0), "phi": (0.3, 0.0)}
+    columns = {"s": np.array([0.7]), "phi": np.array([0.3]), "t": np.zeros(1)}
+    bent, twisted = (
+        kept_positions(disc(rolling, begin), columns)
+        for rolling in ("(1 + 2*s*phi)*dot(s) + s^2*dot(phi) = 0", "phi*dot(s) - s*dot(phi) = 0")
+    )
+    assert twisted is None
+    assert bent is not None
+    symbols = Symbols.of(disc("dot(s) = 0", begin))
+    there = bent[0].subs({symbols.values["s"]: 2.0, symbols.values["phi"]: 0.5})
+    assert float(there) == pytest.approx(2.0 + 2.0 - (0.7 + 0.49 * 0.3))
 
 
 @pytest.mark.parametrize(

@@ -14,7 +14,7 @@ from ...mechanics.scene import Scene
 from ...mechanics.soundness import expressions
 from ...model.compiled import Compiled, compile_expressions
 from ...model.elimination import substituted
-from ...model.minimal import Solution, numbers, solution
+from ...model.minimal import Solution, kept_positions, numbers, solution
 from ...model.symbols import CLOCK
 from ...model.symengine_algebra import SymEngineAlgebra
 from ...simulation.problem import Floats
@@ -31,10 +31,11 @@ LATEX = {"phi": r"\varphi", "theta": r"\vartheta", "psi": r"\psi"}
 def minimal(scene: Scene, seen: Motion) -> Minimal:
     """The scene in minimal coordinates that give a motion of it. Raises SceneError where there is no closed form."""
     names = {"names": ", ".join(constraint.name for constraint in scene.constraints)}
-    if not all(condition.is_holonomic for condition in scene.conditions):
-        raise SceneError(Problem("ladder-nonholonomic", parameters=names))
     columns = {each.name: seen.values[each.name] for each in scene.free} if len(seen.times) else {}
-    found = solution(scene, {**columns, CLOCK: seen.times}) if columns else None
+    motion = {**columns, CLOCK: seen.times}
+    if columns and kept_positions(scene, motion) is None:
+        raise SceneError(Problem("ladder-nonholonomic", parameters=names))
+    found = solution(scene, motion) if columns else None
     if found is None:
         raise SceneError(Problem("ladder-minimal", parameters=names))
     added = _coordinates(scene, found)

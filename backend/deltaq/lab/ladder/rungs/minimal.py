@@ -1,7 +1,7 @@
 """Minimal coordinates instead of constraints: as many as there are degrees of freedom, and no multipliers.
 
 Exact: q = X(s, t) keeps the constraints by itself, with fewer equations and nothing that could drift. Told why not
-where the constraints have no solution in closed form (`model/minimal.py`), or bind rates alone.
+where the constraints have no solution in closed form (`model/minimal.py`), or bind rates and cannot be integrated.
 Source: Goldstein, Poole, Safko, Classical Mechanics, 3rd ed., §§1.3, 2.4.
 """
 
