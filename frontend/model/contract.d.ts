@@ -2074,6 +2074,11 @@ export interface components {
              */
             times: number[];
             /**
+             * Preparation
+             * @description seconds before, in which code was compiled for these equations and this tolerance; of heyoka
+             */
+            preparation?: number | null;
+            /**
              * Wanted
              * @description the error
              */
@@ -5298,6 +5303,11 @@ export interface components {
              * @description seconds of each of them, ascending
              */
             times: number[];
+            /**
+             * Preparation
+             * @description seconds before, in which code was compiled for these equations and this tolerance; of heyoka
+             */
+            preparation?: number | null;
         };
         /**
          * Mode
@@ -9595,7 +9605,7 @@ export interface components {
             methods?: string[];
             /**
              * Peers
-             * @description whether SciPy's integrators take part, where SciPy is installed
+             * @description whether SciPy's integrators and heyoka take part, where installed
              */
             peers?: boolean;
         };

@@ -15,16 +15,16 @@ from collections.abc import Callable
 from dataclasses import replace
 from statistics import median
 from time import process_time
+from typing import Any
 
-import heyoka as hy
 import numpy as np
-import symengine as se
 from tests.simulation.scenes import document
 
+from deltaq.lab import heyoka
 from deltaq.mechanics.document import read_scene
 from deltaq.mechanics.library import load_scene
 from deltaq.mechanics.scene import Scene
-from deltaq.model.equations import Equations, equations
+from deltaq.model.equations import equations
 from deltaq.model.model import build
 from deltaq.simulation.integration import Flag
 from deltaq.simulation.library import get_method
@@ -33,7 +33,6 @@ from deltaq.simulation.run import Steps, run
 from deltaq.simulation.service import problem_of, warm
 
 SPAN, SAMPLES, TOLERANCES = 100.0, 101, (1e-12, 1e-15)
-FUNCTIONS = {"sin": hy.sin, "cos": hy.cos, "exp": hy.exp, "log": hy.log, "tan": hy.tan}
 
 
 def orbit() -> Scene:
@@ -73,7 +72,7 @@ def compare(name: str, scene: Scene, tolerance: float, rounds: int) -> None:
     ours()
     new = process_time() - start
     start = process_time()
-    solver = compiled(equations(scene), problem, tolerance)
+    solver = compiled(problem, tolerance)
     theirs = their_motion(solver, problem)
     their_steps = theirs()
     their_new = process_time() - start
@@ -108,19 +107,12 @@ def _flag() -> Flag:
     return np.zeros(1, dtype=np.int64)
 
 
-def compiled(eqs: Equations, problem: Problem, tolerance: float) -> hy.taylor_adaptive:
+def compiled(problem: Problem, tolerance: float) -> Any:
     """heyoka's integrator for the same equations, with numbers that are new to it: it keeps code on disk."""
-    symbols, n = eqs.symbols, problem.degrees
-    variables = hy.make_vars(*(f"x{i}" for i in range(2 * n)))
-    numbers = [value * random.uniform(0.999, 1.001) for value in problem.parameters]
-    known = dict(zip(map(str, symbols.inputs), [*variables, hy.time, *numbers], strict=True))
-    mass = [[of_expression(entry, known) for entry in row] for row in eqs.mass_matrix]
-    bends = eliminated(mass, [of_expression(force, known) for force in eqs.forcing])
-    system = [*zip(variables[:n], variables[n:], strict=True), *zip(variables[n:], bends, strict=True)]
-    return hy.taylor_adaptive(system, list(problem.state[: 2 * n]), tol=tolerance)
+    return heyoka.solver(problem, tolerance, [value * random.uniform(0.999, 1.001) for value in problem.parameters])
 
 
-def their_motion(solver: hy.taylor_adaptive, problem: Problem) -> Callable[[], int]:
+def their_motion(solver: Any, problem: Problem) -> Callable[[], int]:
     """One run of it; returns its steps."""
     state, times = problem.state[: 2 * problem.degrees].copy(), np.linspace(0.0, SPAN, SAMPLES)
 
@@ -129,42 +121,6 @@ def their_motion(solver: hy.taylor_adaptive, problem: Problem) -> Callable[[], i
         return int(solver.propagate_grid(times)[3])
 
     return once
-
-
-def eliminated(m: list[list[hy.expression]], f: list[hy.expression]) -> list[hy.expression]:
-    """x of M x = f, by Gauss's elimination."""
-    n = len(f)
-    for k in range(n):
-        for i in range(k + 1, n):
-            factor = m[i][k] / m[k][k]
-            m[i] = [m[i][j] - factor * m[k][j] if j >= k else m[i][j] for j in range(n)]
-            f[i] = f[i] - factor * f[k]
-    x: list[hy.expression] = [f[0]] * n
-    for i in range(n - 1, -1, -1):
-        rest = f[i]
-        for j in range(i + 1, n):
-            rest = rest - m[i][j] * x[j]
-        x[i] = rest / m[i][i]
-    return x
-
-
-def of_expression(e: object, known: dict[str, hy.expression]) -> hy.expression:
-    """A SymEngine expression in heyoka's words."""
-    e = se.sympify(e)
-    name = type(e).__name__
-    if e.is_Symbol:
-        return known[str(e)] + hy.expression(0.0) if isinstance(known[str(e)], float) else known[str(e)]
-    parts = [of_expression(part, known) for part in e.args]
-    if name == "Add":
-        return hy.sum(parts)
-    if name == "Mul":
-        found = parts[0]
-        for part in parts[1:]:
-            found = found * part
-        return found
-    if name == "Pow":
-        return parts[0] ** float(e.args[1])
-    return FUNCTIONS[name](*parts) if name in FUNCTIONS else hy.expression(float(e))
 
 
 if __name__ == "__main__":

@@ -199,7 +199,19 @@ def test_of_many_methods_five_are_shown_and_the_others_are_a_click_away(
 
 
 def test_peers_are_told_apart_by_symbol() -> None:
-    assert len({look(f"scipy-{name}")["symbol"] for name in PEERS}) == len(PEERS)
+    assert len({look(name)["symbol"] for name in PEERS}) == len({look(name)["color"] for name in PEERS}) == len(PEERS)
+
+
+def test_what_a_peer_compiled_is_told_apart() -> None:
+    *_, last = reports("work-precision")
+    point = point_of("heyoka") | {"preparation": 0.75}
+    result = last.result | {"points": [*last.result["points"], point], "orders": {}}
+    by_time, by_work = get_experiment("work-precision").charts(result, words(text, "en"))
+    assert "heyoka compiled for 0.75 s" in by_time["caption"]
+    assert "compiled for" not in by_work["caption"]
+    (trace,) = (trace for trace in by_time["data"] if trace["legendgroup"] == "heyoka")
+    assert trace["name"] == "heyoka"
+    assert "compiled for 0.75 s before" in trace["text"][0]
 
 
 def test_every_way_to_end_has_its_words_and_no_word_is_left_over() -> None:

@@ -4,19 +4,23 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from dataclasses import replace
+from importlib.util import find_spec
 
 import numpy as np
 import pytest
 
 from deltaq.errors import RequestError, UnknownNameError
+from deltaq.lab import heyoka
 from deltaq.lab.experiments.convergence import EXPERIMENT as CONVERGENCE
 from deltaq.lab.experiments.work_precision import EXPERIMENT as WORK_PRECISION
 from deltaq.lab.experiments.work_precision import cheapest
 from deltaq.lab.measurement import Point, Setting, error_of, order_of
 from deltaq.lab.report import Document, Report
 from deltaq.lab.sweep import Track, sweep
+from deltaq.mechanics.library import load_scene
 from deltaq.simulation.library import get_method, method_ids
 from deltaq.simulation.reference import Reference
+from deltaq.simulation.service import problem_of
 
 
 def last(reports: Iterator[Report]) -> Document:
@@ -90,6 +94,24 @@ def test_peers_go_through_the_same_harness() -> None:
     assert {"scipy-DOP853", "scipy-Radau", "scipy-LSODA", "scipy-RK45", "scipy-BDF"} <= names
     errors = [point["error"] for point in points_of(found, "scipy-DOP853")]
     assert min(error for error in errors if isinstance(error, float)) < 1e-9
+
+
+@pytest.mark.skipif(find_spec("heyoka") is None, reason="needs heyoka, of the extra bench")
+@pytest.mark.parametrize("scene", ["double-pendulum", "kapitza", "spherical-pendulum"])
+def test_heyoka_integrates_the_same_equations(scene: str) -> None:
+    """M, f and the guides by its own functions: else its errors would not be those of its tolerances."""
+    found = last(WORK_PRECISION.run({"scene": scene, "t_end": 1.0, "methods": ["taylor"], "peers": True}))
+    points = points_of(found, "heyoka")
+    assert [point["status"] for point in points] == ["ok"] * len(points)
+    assert min(float(point["error"]) for point in points) < 1e-12
+    assert all(point["preparation"] > 0.0 and point["evaluations"] >= point["steps"] > 0 for point in points)
+
+
+def test_heyoka_takes_part_where_it_can(monkeypatch: pytest.MonkeyPatch) -> None:
+    assert not heyoka.can_do(problem_of(load_scene("four-bar"), 1.0))
+    assert not heyoka.can_do(problem_of(load_scene("bouncing-ball"), 1.0))
+    monkeypatch.setattr(heyoka, "find_spec", lambda _name: None)
+    assert not heyoka.can_do(problem_of(load_scene("pendulum"), 1.0))
 
 
 @pytest.mark.parametrize(

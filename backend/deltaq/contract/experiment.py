@@ -87,6 +87,9 @@ class MethodRun(Answer):
     steps: int
     time: float = Field(description="seconds, the median of the repeated runs")
     times: tuple[float, ...] = Field(description="seconds of each of them, ascending")
+    preparation: float | None = Field(
+        None, description="seconds before, in which code was compiled for these equations and this tolerance; of heyoka"
+    )
 
 
 class Machine(Answer):

@@ -47,6 +47,7 @@ class Point:
     evaluations: int = 0
     steps: int = 0
     seconds: tuple[float, ...] = ()
+    preparation: float | None = None  # seconds for code that was made for this run alone
 
     @property
     def time(self) -> float:
@@ -70,7 +71,7 @@ class Point:
             "steps": self.steps,
             "time": significant(self.time),
             "times": rounded(sorted(self.seconds), 4),
-        }
+        } | ({} if self.preparation is None else {"preparation": significant(self.preparation)})
 
 
 def too_slow(method: str, setting: Setting) -> Point:

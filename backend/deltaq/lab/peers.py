@@ -1,4 +1,7 @@
-"""SciPy's integrators in the same harness, over the same compiled right-hand side, if SciPy is installed."""
+"""Integrators of others in the same harness, where they are installed.
+
+SciPy's run over the same compiled right-hand side, heyoka's over code of its own, made of the same equations.
+"""
 
 from __future__ import annotations
 
@@ -13,20 +16,60 @@ import numpy as np
 
 from ..simulation.problem import Floats, Problem
 from ..simulation.reference import Reference
-from .measurement import Point, Setting, error_of, repeated
+from . import heyoka
+from .measurement import REPEATS, Point, Setting, error_of, repeated
 from .sweep import TOLERANCES, Track
 
-PEERS = ("RK45", "DOP853", "Radau", "BDF", "LSODA")
+SCIPY = ("RK45", "DOP853", "Radau", "BDF", "LSODA")
+PEERS = (*(f"scipy-{name}" for name in SCIPY), heyoka.NAME)
+OF_SERIES = tuple(10.0**-k for k in (3, 6, 9, 12, 15))  # each is compiled for
 FINEST = 1e-12  # solve_ivp raises smaller relative tolerances by itself
 
 
 def peer_tracks(problem: Problem, reference: Reference) -> list[Track]:
-    """One track for each of SciPy's integrators; none where SciPy is missing."""
+    """One track for each integrator of others that is there and can do the problem."""
+    return [*_scipy_tracks(problem, reference), *_heyoka_tracks(problem, reference)]
+
+
+def title_of(peer: str) -> str:
+    """What it calls itself."""
+    return f"SciPy {peer.removeprefix('scipy-')}" if peer.startswith("scipy-") else peer
+
+
+def _heyoka_tracks(problem: Problem, reference: Reference) -> list[Track]:
+    if not heyoka.can_do(problem):
+        return []
+    settings = [Setting("tolerance", tolerance) for tolerance in OF_SERIES]
+    return [Track(heyoka.NAME, settings, partial(_measured_series, problem, reference))]
+
+
+def _measured_series(problem: Problem, reference: Reference, setting: Setting) -> Point:
+    """Compiling does not count to the time of a run, and is told by itself; an order counts as an evaluation."""
+    start = perf_counter()
+    solver = heyoka.solver(problem, setting.value)
+    prepared, state = perf_counter() - start, problem.state[: 2 * problem.degrees]
+
+    def once() -> tuple[float, Any]:
+        solver.time, solver.state[:] = 0.0, state
+        start = perf_counter()
+        found = solver.propagate_grid(reference.times)
+        return perf_counter() - start, found
+
+    first, (outcome, _, _, steps, *_, states) = once()
+    if outcome != import_module(heyoka.NAME).taylor_outcome.time_limit:
+        return Point(heyoka.NAME, setting, "diverged", None, preparation=prepared)
+    seconds = repeated(lambda: once()[0], first, REPEATS)
+    error = error_of(states[:, : problem.degrees], reference)
+    work = int(steps) * int(solver.order)
+    return Point(heyoka.NAME, setting, "ok", error, work, int(steps), seconds, prepared)
+
+
+def _scipy_tracks(problem: Problem, reference: Reference) -> list[Track]:
     if find_spec("scipy") is None:
         return []
     import_module("scipy.integrate")  # now, so that no run that is measured has to
     settings = [Setting("tolerance", tolerance) for tolerance in TOLERANCES if tolerance >= FINEST]
-    return [Track(f"scipy-{name}", settings, partial(_measured, problem, reference, name)) for name in PEERS]
+    return [Track(f"scipy-{name}", settings, partial(_measured, problem, reference, name)) for name in SCIPY]
 
 
 def _measured(problem: Problem, reference: Reference, name: str, setting: Setting) -> Point:

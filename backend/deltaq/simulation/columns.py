@@ -22,7 +22,10 @@ Column = list[float] | str
 
 @dataclass(frozen=True)
 class Writer:
-    """A way to write columns of shape (samples,) or (samples, dimension), and to shorten their numbers by errors."""
+    """A way to write numbers: `write` makes a column of values of shape (samples,) or (samples, dimension).
+
+    `shorten` rounds values of shape (samples, …) before, by errors of shape (samples,).
+    """
 
     write: Callable[[Floats], Column]
     shorten: Callable[[Floats, Floats], Floats] = rounded

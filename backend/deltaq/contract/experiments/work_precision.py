@@ -34,6 +34,6 @@ class WorkPrecisionRequest(ExperimentRequest):
     answer: ClassVar[type[ExperimentAnswer]] = WorkPrecisionAnswer
 
     methods: MethodIds = ()
-    peers: bool = Field(default=False, description="whether SciPy's integrators take part, where SciPy is installed")
+    peers: bool = Field(default=False, description="whether SciPy's integrators and heyoka take part, where installed")
 
     model_config = examples({"scene": "pendulum", "t_end": 2.0, "methods": ["rk4", "dop853"]})

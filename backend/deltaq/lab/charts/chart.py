@@ -10,7 +10,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
 
 from ...simulation.library import method_ids
-from ..peers import PEERS
+from ..peers import PEERS, title_of
 from .words import Say
 
 Chart = dict[str, Any]
@@ -24,7 +24,7 @@ METHODS = (
     *("#8c564b", "#b8860b", "#7f7f00", "#56b4e9", "#a0522d", "#009e73", "#6b5b95", "#008b8b"),
     *("#c71585", "#e69f00", "#4682b4", "#d55e00", "#808000", "#0072b2", "#cc79a7", "#5f9e00"),
 )
-PEER_COLORS = ("#999999", "#666666", "#8a9ba8", "#a89984", "#7d6b7d")
+PEER_COLORS = ("#999999", "#666666", "#8a9ba8", "#a89984", "#7d6b7d", "#333333")
 SYMBOLS = ("circle", "square", "diamond", "triangle-up", "triangle-down", "pentagon", "star", "hexagon")
 DASHES = ("solid", "dash", "dot")
 FAILED = "x-thin-open"
@@ -68,7 +68,7 @@ def look(name: str) -> dict[str, Any]:
     """Colour, symbol and dash of a method, the same in every chart and no other's; others (peers) are nearly grey."""
     known = method_ids()
     if name not in known:
-        place = PEERS.index(name.removeprefix("scipy-"))
+        place = PEERS.index(name)
         return {"color": PEER_COLORS[place], "symbol": f"{SYMBOLS[place]}-open", "dash": "dash"}
     turn, place = divmod(known.index(name), len(SYMBOLS))
     color = METHODS[known.index(name) % len(METHODS)]
@@ -77,7 +77,7 @@ def look(name: str) -> dict[str, Any]:
 
 def name_of(method: str, say: Say) -> str:
     """The method's title; a peer's own name."""
-    return say(f"methods.{method}.title") if method in method_ids() else f"SciPy {method.removeprefix('scipy-')}"
+    return say(f"methods.{method}.title") if method in method_ids() else title_of(method)
 
 
 def curve(name: str, x: Sequence[Any], y: Sequence[Any], method: str, **more: Any) -> Trace:

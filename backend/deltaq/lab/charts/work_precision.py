@@ -44,7 +44,7 @@ def charts(result: Result, say: Say) -> list[Chart]:
         **machine,
     }
     return [
-        _one(result, say, "time", axis(say("labs.axis.seconds"), log=True), say("labs.work-precision.by-time", **told)),
+        _one(result, say, "time", axis(say("labs.axis.seconds"), log=True), _by_time(result, told, say)),
         _one(
             result,
             say,
@@ -53,6 +53,14 @@ def charts(result: Result, say: Say) -> list[Chart]:
             say("labs.work-precision.by-evaluations", **told),
         ),
     ]
+
+
+def _by_time(result: Result, told: dict[str, Any], say: Say) -> str:
+    """The caption, with what code took that was compiled for a run alone."""
+    caption = say("labs.work-precision.by-time", **told)
+    prepared = {point["method"]: point["preparation"] for point in result["points"] if point.get("preparation")}
+    parts = (say("labs.work-precision.prepared", name=name_of(m, say), seconds=s) for m, s in prepared.items())
+    return " ".join((caption, *parts))
 
 
 def _one(result: Result, say: Say, x: str, x_axis: dict[str, Any], caption: str) -> Chart:
@@ -140,4 +148,6 @@ def _hover(point: Mapping[str, Any], name: str, say: Say) -> str:
         lines.append(say(f"labs.status.{point['status']}"))
     if point["evaluations"]:
         lines.append(say("labs.hover.cost", evaluations=point["evaluations"], milliseconds=1e3 * point["time"]))
+    if point.get("preparation"):
+        lines.append(say("labs.hover.preparation", seconds=point["preparation"]))
     return "<br>".join(lines)
