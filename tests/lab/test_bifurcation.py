@@ -144,8 +144,10 @@ def folds_of_duffing() -> list[float]:
         found = root(left, near, args=(amplitude,), tol=1e-14)
         return float(found.x[-1])
 
-    low = minimize_scalar(omega, bounds=(1.5, 4.0), method="bounded", options={"xatol": 1e-9})
-    return [float(low.fun)]
+    precise = {"method": "bounded", "options": {"xatol": 1e-9}}
+    low = minimize_scalar(omega, bounds=(1.5, 4.0), **precise)
+    high = minimize_scalar(lambda amplitude: -omega(amplitude), bounds=(5.5, 6.55), **precise)
+    return [float(low.fun), -float(high.fun)]
 
 
 @cache
@@ -153,8 +155,45 @@ def duffing() -> dict[str, Any]:
     return ask(scene=DUFFING, sweep=swept("omega", 0.8, 2.0, 25), plane="dot(x)", vertical="x", crossings=8)
 
 
-def test_duffings_lower_fold_is_that_of_harmonic_balance() -> None:
-    assert values_of(duffing(), "saddle-node")[0] == pytest.approx(folds_of_duffing()[0], abs=1e-6)
+def test_duffings_folds_are_those_of_harmonic_balance() -> None:
+    assert values_of(duffing(), "saddle-node") == pytest.approx(folds_of_duffing(), abs=1e-6)
+
+
+ENTRAINED = line("k*x^2/2", "c*(1 - x^2)*dot(x) + F*cos(omega*t)", x=1.0, k=1.0, c=0.5, F=2.2, omega=1.5)
+
+
+def entrained_determinant(force: float) -> float:
+    """By SciPy: the product of the multipliers of van der Pol's oscillator in step with its drive, less 1."""
+    period = math.tau / 1.5
+
+    def rhs(t: float, y: np.ndarray) -> list[float]:
+        x, v = y[0], y[1]
+        out = [v, -x + 0.5 * (1.0 - x * x) * v + force * math.cos(1.5 * t)]
+        for column in (2, 4):
+            of_x, of_v = y[column], y[column + 1]
+            out += [of_v, -of_x - x * v * of_x + 0.5 * (1.0 - x * x) * of_v]
+        return out
+
+    state = np.array([-1.4, 0.4])
+    for _ in range(12):
+        begin = [*state, 1.0, 0.0, 0.0, 1.0]
+        after = solve_ivp(rhs, (0.0, period), begin, method="DOP853", rtol=1e-12, atol=1e-13).y[:, -1]
+        matrix = after[2:].reshape(2, 2).T
+        state = state - np.linalg.solve(matrix - np.eye(2), after[:2] - state)
+    assert np.abs(after[:2] - state).max() < 1e-10
+    assert np.abs(np.linalg.eigvals(matrix).imag).min() > 0.1  # a pair, that is no double root
+    return float(np.linalg.det(matrix)) - 1.0
+
+
+def test_a_torus_is_born_where_scipys_multipliers_leave_the_circle() -> None:
+    """Van der Pol's oscillator falls out of step with a drive that becomes weaker (Neimark and Sacker)."""
+    found = ask(scene=ENTRAINED, sweep=swept("F", 1.6, 2.4), crossings=20)
+    (born,) = values_of(found, "torus")
+    assert born == pytest.approx(brentq(entrained_determinant, 1.7, 2.1, xtol=1e-10), abs=1e-6)
+    (one,) = (one for one in found["bifurcations"] if one["kind"] == "torus")
+    assert [math.hypot(*pair) for pair in one["multipliers"]] == pytest.approx([1.0, 1.0], abs=1e-6)
+    for visit in (*found["up"], *found["down"]):
+        assert visit["folds"] == (1 if visit["value"] > born else 0)  # in step; on the torus nothing closes
 
 
 def test_between_the_folds_both_sweeps_see_unlike_amplitudes() -> None:

@@ -40,8 +40,7 @@ def finish(
                 workspace.state[n + d] = stages.v[i, d]
             if rhs(motion, t + weights.c[i] * h, workspace.state, workspace.derivative) != FINE:
                 return NOT_FINITE
-            workspace.powers[i] = workspace.derivative[2 * n]
-            work += weights.b[i] * workspace.powers[i]
+            work += weights.b[i] * workspace.derivative[2 * n]
         ends.new[2 * n] = compensated_sum(ends.old[2 * n], h * work, 2 * n, workspace)
     return velocity(phase, t + h, ends.new[:n], workspace.new_p, ends.new[n : 2 * n], stages.spare[0])
 

@@ -18,7 +18,7 @@ class ImplicitWorkspace(NamedTuple):
 
     `p`, `new_p` (momenta) and `rate` (ṗ at the start) have shape (n,); `compensation` and `new_compensation` (of q,
     then p, then the work), `error`, `state` and `derivative` shape (width,); `error_matrix` shape (n, n), its
-    `error_pivots` (n,); `powers`, those at the stages in W, shape (stages,).
+    `error_pivots` (n,).
     """
 
     p: Floats
@@ -33,7 +33,6 @@ class ImplicitWorkspace(NamedTuple):
     error_pivots: Indices
     state: Floats
     derivative: Floats
-    powers: Floats
 
 
 def make_implicit_workspace(state: Floats, n: int, count: int) -> ImplicitWorkspace:
@@ -52,7 +51,6 @@ def make_implicit_workspace(state: Floats, n: int, count: int) -> ImplicitWorksp
         np.zeros(n, dtype=np.int64),
         wide.copy(),
         wide.copy(),
-        np.zeros(count),
     )
 
 
