@@ -7774,6 +7774,12 @@ export interface components {
              * @description how much the linearization changes along the motion
              */
             varies: number;
+            /**
+             * Minimal
+             * @description with constraints, the coordinates in which it is linearized
+             * @default []
+             */
+            minimal: string[];
             /** Methods */
             methods: components["schemas"]["FailingStep"][];
             /**

@@ -91,6 +91,21 @@ def simplified(system: System, value: sp.Expr) -> sp.Expr:
         return shown
     try:
         cancelled = sp.cancel(sp.together(shown))
+        apart = _by_rates(system, cancelled)
     except sp.PolynomialError:
         return shown
-    return min((shown, system.display(cancelled), system.display(sp.factor_terms(cancelled))), key=operations)
+    found = (shown, system.display(cancelled), system.display(sp.factor_terms(cancelled)), apart)
+    return min(found, key=operations)
+
+
+def _by_rates(system: System, value: sp.Expr) -> sp.Expr:
+    """What is of one degree in the rates together, each in factors: m (x ẏ − y ẋ)²/s³ + m g y/s of a rod's force."""
+    rates = [system.rate(q) for q in system.free]
+    upper, lower = sp.fraction(value)
+    if lower.has(*rates) or not upper.is_polynomial(*rates):
+        return value
+    groups: dict[int, sp.Expr] = {}
+    for powers, factor in sp.Poly(upper, *rates).terms():
+        term = sp.Mul(factor, *(rate**power for rate, power in zip(rates, powers, strict=True)))
+        groups[sum(powers)] = groups.get(sum(powers), system.zero) + term
+    return sp.Add(*(sp.factor(group / lower) for group in groups.values()))

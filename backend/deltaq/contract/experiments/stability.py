@@ -53,6 +53,7 @@ class StabilityAnswer(ExperimentAnswer):
     at: Place = Field(description="where the scene was to be linearized")
     rest: bool = Field(description="whether it rests there")
     varies: float = Field(description="how much the linearization changes along the motion")
+    minimal: tuple[str, ...] = Field((), description="with constraints, the coordinates in which it is linearized")
     methods: tuple[FailingStep, ...]
     stiffness: str = Field(description="the parameter of the series; empty where there is none")
     series: tuple[StiffRun, ...]

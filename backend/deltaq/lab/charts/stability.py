@@ -21,6 +21,9 @@ def _regions(result: Result, say: Say) -> Chart:
     traces = [trace for row in result["methods"] for trace in _region(row, say)]
     traces.append(_eigenvalues(result, say))
     caption = say("labs.stability.caption", count=len(result["eigenvalues"]))
+    if result.get("minimal"):
+        names = ", ".join(called(result, name) for name in result["minimal"])
+        caption = f"{caption} {say('labs.stability.minimal', names=names)}"
     return chart("stability-regions", say("labs.stability.title"), caption, traces, xaxis=x_axis, yaxis=y_axis)
 
 

@@ -1,8 +1,9 @@
 """Stability of methods: regions |R(z)| ≤ 1 with the scene's own hλ in them, and the step at which each method fails.
 
-The scene is linearized at its present state, or at rest. Where that holds along the motion, the step of failure is
-predicted from it and measured by running the method; elsewhere the method is held against the exact flow. A series over
-a stiffness shows what explicit and implicit methods pay as it grows.
+The scene is linearized at its present state, or at rest; with constraints, in coordinates that keep them. Where that
+holds along the motion, the step of failure is predicted from it and measured by running the method; elsewhere the
+method is held against the exact flow. A series over a stiffness shows what explicit and implicit methods pay as it
+grows.
 Source: Hairer, Wanner, Solving Ordinary Differential Equations II, IV.2–IV.3.
 """
 
@@ -26,11 +27,12 @@ from ...simulation.stability import Complexes
 from ..charts.stability import charts
 from ..experiment import Experiment
 from ..failure import failure
+from ..minimal_subject import minimal_subject_of
 from ..neighbours import Neighbours
 from ..region import region
 from ..report import Document, Report, appended, measured, significant
 from ..rest import at_rest
-from ..subject import Subject, bounded, free_subject_of, methods_of, parameter_of
+from ..subject import Subject, bounded, methods_of, parameter_of
 
 STIFFENED = ("rk4", "dop853", "stormer-verlet", "newmark", "radau-5")
 FACTORS = tuple(10.0 ** (k / 2) for k in range(11))  # of the stiffness: 1 to 10⁵
@@ -39,7 +41,8 @@ TOLERANCE, STEP_LIMIT = 1e-4, 300_000
 
 def run(request: StabilityRequest) -> Iterator[Report]:
     """One method after the other, then the series over the stiffness."""
-    subject = free_subject_of(request)
+    found = minimal_subject_of(request)
+    subject = found.subject
     methods = methods_of(subject.problem, request.methods)
     stiffness = request.stiffness or stiffness_of(subject.scene)
     place = parameter_of(subject, stiffness, "/stiffness") if stiffness else -1
@@ -50,6 +53,7 @@ def run(request: StabilityRequest) -> Iterator[Report]:
     total = len(methods) + (len(FACTORS) * len(STIFFENED) if stiffness else 0)
     head = _spectrum(neighbours.eigenvalues) | {"at": request.at, "rest": is_rest}
     head |= {"varies": significant(neighbours.varies, 2), "taken": measured(1)}
+    head |= {"minimal": list(found.coordinates)}
     result = subject.described | head | {"methods": [], "stiffness": stiffness, "series": []}
     for done, method in enumerate(methods, 1):
         result = appended(result, "methods", _row(neighbours, method))

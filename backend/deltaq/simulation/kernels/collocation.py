@@ -8,6 +8,9 @@ from .motion import Floats
 from .phase import Phase, velocity
 from .stages import ImplicitWeights
 
+NODES = (-0.7745966692414834, 0.0, 0.7745966692414834)  # ±√(3/5)
+SHARES = (5.0 / 9.0, 8.0 / 9.0, 5.0 / 9.0)
+
 
 @inline
 def lagrange_basis(weights: ImplicitWeights, x: float, i: int) -> float:
@@ -21,6 +24,19 @@ def lagrange_basis(weights: ImplicitWeights, x: float, i: int) -> float:
 
 
 @inline
+def integrated_basis(weights: ImplicitWeights, x: float, i: int) -> float:
+    """∫₀ˣ of the Lagrange basis polynomial of node cᵢ among c₁, …, by Gauss's rule: exact for up to six nodes."""
+    c, total = weights.c, 0.0
+    for k in range(3):
+        place, part = 0.5 * x * (1.0 + NODES[k]), 1.0
+        for j in range(c.size):
+            if j != i:
+                part *= (place - c[j]) / (c[i] - c[j])
+        total += 0.5 * x * SHARES[k] * part
+    return float(total)
+
+
+@inline
 def sample_stages(
     phase: Phase,
     weights: ImplicitWeights,
@@ -31,8 +47,8 @@ def sample_stages(
 ) -> int:
     """Samples number `first` and on, as far as they lie in the step now = (t, h); returns the number of the next one.
 
-    q and p come from the polynomials through the stages, q̇ from p. `samples` are the times, shape (samples,), and the
-    states, shape (samples, width), which are written.
+    q and p come from the polynomials through the stages, q̇ from p, the work from the integral of the powers there.
+    `samples` are the times, shape (samples,), and the states, shape (samples, width), which are written.
     """
     p, stages, ends = workspace.p, workspace.stages, workspace.ends
     t, h = now
@@ -51,6 +67,8 @@ def sample_stages(
                 stages.spare[1, d] += part * (stages.p[i, d] - p[d])
         velocity(phase, times[first], out[first, :n], stages.spare[1], out[first, n : 2 * n], stages.spare[0])
         for d in range(2 * n, ends.old.size):
-            out[first, d] = ends.old[d] + x * (ends.new[d] - ends.old[d])
+            out[first, d] = ends.old[d]
+            for i in range(weights.c.size):
+                out[first, d] += h * integrated_basis(weights, x, i) * workspace.powers[i]
         first += 1
     return first

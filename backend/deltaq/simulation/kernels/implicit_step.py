@@ -40,7 +40,8 @@ def finish(
                 workspace.state[n + d] = stages.v[i, d]
             if rhs(motion, t + weights.c[i] * h, workspace.state, workspace.derivative) != FINE:
                 return NOT_FINITE
-            work += weights.b[i] * workspace.derivative[2 * n]
+            workspace.powers[i] = workspace.derivative[2 * n]
+            work += weights.b[i] * workspace.powers[i]
         ends.new[2 * n] = compensated_sum(ends.old[2 * n], h * work, 2 * n, workspace)
     return velocity(phase, t + h, ends.new[:n], workspace.new_p, ends.new[n : 2 * n], stages.spare[0])
 

@@ -18,7 +18,7 @@ class ImplicitWorkspace(NamedTuple):
 
     `p`, `new_p` (momenta) and `rate` (ṗ at the start) have shape (n,); `compensation` and `new_compensation` (of q,
     then p, then the work), `error`, `state` and `derivative` shape (width,); `error_matrix` shape (n, n), its
-    `error_pivots` (n,).
+    `error_pivots` (n,); `powers`, those at the stages in W, shape (stages,).
     """
 
     p: Floats
@@ -33,6 +33,7 @@ class ImplicitWorkspace(NamedTuple):
     error_pivots: Indices
     state: Floats
     derivative: Floats
+    powers: Floats
 
 
 def make_implicit_workspace(state: Floats, n: int, count: int) -> ImplicitWorkspace:
@@ -51,6 +52,7 @@ def make_implicit_workspace(state: Floats, n: int, count: int) -> ImplicitWorksp
         np.zeros(n, dtype=np.int64),
         wide.copy(),
         wide.copy(),
+        np.zeros(count),
     )
 
 
