@@ -67,7 +67,10 @@ def solution(scene: Scene, columns: Mapping[str, Floats]) -> Solution | None:
 
 
 def kept_positions(scene: Scene, columns: Mapping[str, Floats]) -> tuple[Expr, ...] | None:
-    """g(q, t) of every constraint, those on rates integrated from where a motion begins; None where one cannot be."""
+    """g(q, t) of every constraint, those on rates integrated from where a motion begins; None where one cannot be.
+
+    `columns` are the free coordinates along the motion and its times, under `t`: shape (samples,) each.
+    """
     symbols = Symbols.of(scene)
     stated = {each.name: each.value for each in scene.coordinates}
     first = {name: exactly(float(columns[name][0]), stated[name]) for name in symbols.free}
