@@ -1,9 +1,12 @@
 from __future__ import annotations
 
+import asyncio
 from typing import Any
 
 import httpx
+import numpy as np
 import pytest
+from fastapi import FastAPI
 
 from deltaq.contract.simulation import SimulationAnswer
 from deltaq.mechanics.library import load_scene, scene_ids
@@ -35,6 +38,23 @@ async def test_every_scene_is_simulated(client: httpx.AsyncClient, identifier: s
     assert all(len(place) == scene.dimension for places in answer.positions.values() for place in places)
     assert answer.energy is not None
     assert len(answer.energy.balance) == len(answer.t)
+
+
+async def test_a_motion_does_not_wait_for_kernels_that_are_being_compiled(
+    client: httpx.AsyncClient, app: FastAPI
+) -> None:
+    """It is computed by what there is, under a key of its own, so that the answer of compiled kernels comes later."""
+    question = {"scene": "pendulum", "t_end": 1.25, "samples": 11}
+    compiling = app.state.service.kernels._compiled
+    compiling["explicit-runge-kutta"] = asyncio.Event()
+    try:
+        early = await client.post(SIMULATIONS, json=question)
+    finally:
+        compiling["explicit-runge-kutta"].set()
+    later = await client.post(SIMULATIONS, json=question)
+    assert (early.status_code, later.status_code) == (200, 200)
+    np.testing.assert_allclose(early.json()["coordinates"]["phi"], later.json()["coordinates"]["phi"], atol=1e-9)
+    assert early.headers["etag"] != later.headers["etag"]
 
 
 @pytest.mark.parametrize(
