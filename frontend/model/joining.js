@@ -18,6 +18,8 @@ const [BETWEEN, APART] = [" \\qquad ", 2];
 /** A row beside another has gaps at its relation. */
 const RELATED = 0.3;
 
+/** Below a row, whatever gap it has where there is room. */
+const SMALL_GAP = " \\\\[0.1em] ";
 /** A fraction of numbers, which is as easily read when it is small. */
 const NUMERIC = /\\frac(?=\{\d+\}\{\d+\})/g;
 /** A matrix by itself, behind what it is equal to, and what it is called. */
@@ -124,5 +126,5 @@ export function joinedRows(given, room, measure) {
     }
   }
   settle();
-  return rows.map(({ left, right: text, gap }) => ({ text: `${left}& ${text}`, gap }));
+  return rows.map(({ left, right: text, gap }) => ({ text: `${left}& ${text}`, gap: gap && SMALL_GAP }));
 }

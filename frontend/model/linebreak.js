@@ -101,8 +101,8 @@ function hung(rows, most, wide) {
   });
 }
 
-/** A row whose right side is to be at most `most` em wide. @param {string} row @param {number} most @param {Wide} wide @returns {string[]} */
-function broken(row, most, wide) {
+/** A row whose right side is to be at most `most` em wide. @param {string} row @param {number} most @param {Wide} wide @param {boolean} close @returns {string[]} */
+function broken(row, most, wide, close) {
   const [begin, whole] = sidesOf(row);
   if (wide(whole) <= most) return [row];
   const hangs = whole.trimStart().startsWith(HANGING);
@@ -111,7 +111,7 @@ function broken(row, most, wide) {
   const terms = termsOf(right, least, wide).map((term) =>
     narrowed(term, least, wide, (entry, width) => linesOf(entry, width, wide)),
   );
-  return lined(terms, most, wide, lead).map((line, i) => (i ? `& ${INDENT}${line}` : `${begin} ${line}`));
+  return lined(terms, most, wide, lead, close).map((line, i) => (i ? `& ${INDENT}${line}` : `${begin} ${line}`));
 }
 
 /** Brackets that a piece opens, less those that it closes. @param {string} piece */
@@ -119,15 +119,15 @@ const balance = (piece) =>
   tokensOf(piece).reduce((sum, token) => sum + (/^[([]$/.test(token) ? 1 : /^[)\]]$/.test(token) ? -1 : 0), 0);
 
 /**
- * Terms in lines of at most `most` em; what ends a bracket of a line above ends its line.
- * @param {string[]} terms @param {number} most @param {Wide} wide @param {string} [lead]  what the first of them follows
+ * Terms in lines of at most `most` em; what ends a bracket of a line above ends its line, but where height is dear.
+ * @param {string[]} terms @param {number} most @param {Wide} wide @param {string} [lead]  what the first of them follows @param {boolean} [close]
  */
-function lined(terms, most, wide, lead = "") {
+function lined(terms, most, wide, lead = "", close = false) {
   const lines = [lead];
   let [open, within, taken, room] = [0, false, 0, most - (lead ? wide(lead) : 0)];
   for (const term of terms) {
     const needed = wide(term);
-    const ends = within && open === 0;
+    const ends = within && open === 0 && !close;
     if (taken && (ends || taken + JOINED + needed > room)) {
       lines.push(term);
       [within, taken, room] = [open > 0, needed, most - INDENTED];
@@ -146,12 +146,13 @@ const linesOf = (sum, most, wide) => lined(termsOf(sum, most, wide), most, wide)
 /**
  * The rows of a formula, each at most `most` em wide, as far as they can be broken.
  * @param {{text: string, gap: string}[]} given @param {number} most @param {Wide} [wide]
+ * @param {boolean} [close]  height is dear
  */
-export function brokenRows(given, most, wide = (latex) => sizeOf(latex).width) {
+export function brokenRows(given, most, wide = (latex) => sizeOf(latex).width, close = false) {
   const rows = hung(named(given, most, wide, sidesOf), most, wide);
   const right = most - Math.max(...rows.map(({ text }) => wide(leftOf(text))));
   return rows.flatMap(({ text, gap }) => {
-    const lines = broken(text, right, wide);
+    const lines = broken(text, right, wide, close);
     return lines.map((line, i) => ({ text: line, gap: i < lines.length - 1 ? " \\\\[0.2em] " : gap }));
   });
 }

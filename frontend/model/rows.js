@@ -55,12 +55,12 @@ export function layoutOf(latex) {
   /** @type {Map<string, {rows: ReturnType<typeof rowOf>[], wide: number}>} */
   const measured = new Map();
 
-  /** @param {import("./joining.js").Row[]} rows @param {number} most  em that each may be wide at most */
-  function broken(rows, most) {
-    const key = `${most.toFixed(4)}\n${rows.map(({ text }) => text).join("\n")}`;
+  /** @param {import("./joining.js").Row[]} rows @param {number} most  em that each may be wide at most @param {boolean} close */
+  function broken(rows, most, close) {
+    const key = `${close} ${most.toFixed(4)}\n${rows.map(({ text }) => text).join("\n")}`;
     const known = measured.get(key);
     if (known) return known;
-    const set = (most < Infinity ? brokenRows(rows, most, wide) : rows).map((row) => rowOf(row, measure));
+    const set = (most < Infinity ? brokenRows(rows, most, wide, close) : rows).map((row) => rowOf(row, measure));
     const [left, right] = [0, 1].map((side) => Math.max(...set.map(({ widths }) => widths[side])));
     const made = { rows: set, wide: left + right };
     measured.set(key, made);
@@ -78,7 +78,7 @@ export function layoutOf(latex) {
     planned(room, { bearable, smallest, close = false }) {
       const start = close ? joinedRows(given, room / MARGIN, measure) : given;
       const fitted = (/** @type {number} */ most) => {
-        const { rows, wide: needed } = broken(start, most);
+        const { rows, wide: needed } = broken(start, most, close);
         return { rows, part: Math.min(1, room / (needed * MARGIN)) };
       };
       let best = fitted(Infinity);

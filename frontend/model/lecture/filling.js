@@ -23,7 +23,7 @@ const SAME = 0.99;
 const FAR = 0.05;
 /** KaTeX sets formulas larger than text, and there is a gap between their rows and around them, in em. */
 const LARGER = 1.08;
-const GAP = 0.3;
+const GAP = { open: 0.3, close: 0.15 };
 const AROUND = 1.1;
 
 /** @typedef {{latex: string, share: number, indent?: number}} Natural  share: of the size of the result that it has; indent: pixels at its side */
@@ -48,7 +48,8 @@ export function laidOut({ layout, share, indent = 0 }, size, width, close = fals
     smallest: SMALLEST,
     close,
   });
-  const em = rows.reduce((sum, { above, below }) => sum + above + below + GAP, -GAP);
+  const gap = close ? GAP.close : GAP.open;
+  const em = rows.reduce((sum, { above, below }) => sum + above + below + gap, -gap);
   return { part, height: own * part * (LARGER * em + AROUND) };
 }
 

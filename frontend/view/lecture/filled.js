@@ -10,6 +10,8 @@ import { refit } from "../formula.js";
 /** What is estimated may be a little off: then all of it becomes smaller by this much, so many times. */
 const SMALLER = 0.93;
 const TRIES = 8;
+/** So many times, two frames each, rows are waited for that are not typeset yet, or are still wider than their place. */
+const PATIENCE = 20;
 
 /** Words and premises as they are, smaller, and only the formulas. */
 const DENSER = ["", "words", "formulas"];
@@ -113,15 +115,21 @@ export function createFilled(root) {
     delete slide.dataset.filled;
     slide.style.setProperty("--size-formula", `${size.toFixed(2)}px`);
     refit(slide);
-    cancelAnimationFrame(asked);
-    asked = requestAnimationFrame(() => (asked = requestAnimationFrame(() => check(slide, size, tried))));
+    later(() => check(slide, size, tried));
   }
 
-  /** What came out higher than was estimated becomes smaller. @param {HTMLElement} slide @param {number} size @param {number} tried */
-  function check(slide, size, tried) {
+  /** @param {() => void} next  what is to be done when all has been laid out */
+  function later(next) {
+    cancelAnimationFrame(asked);
+    asked = requestAnimationFrame(() => (asked = requestAnimationFrame(next)));
+  }
+
+  /** What came out higher than was estimated becomes smaller, when all of it is there. @param {HTMLElement} slide @param {number} size @param {number} tried @param {number} [waited] */
+  function check(slide, size, tried, waited = 0) {
     const scroll = slide.querySelector(".scroll");
     const smaller = Math.max(bounds(shorter()).least, size * SMALLER);
-    if (scroll && scroll.scrollHeight > scroll.clientHeight + 1 && tried < TRIES && smaller < size)
+    if (isUnderWay(slide) && waited < PATIENCE) later(() => check(slide, size, tried, waited + 1));
+    else if (scroll && scroll.scrollHeight > scroll.clientHeight + 1 && tried < TRIES && smaller < size)
       set(slide, smaller, tried + 1);
     else slide.dataset.filled = "";
   }
@@ -135,6 +143,11 @@ export function createFilled(root) {
 }
 
 const placesOn = () => (narrow.matches ? PLACES.narrow : PLACES.wide);
+
+/** Whether rows of a slide are still to come or to be made to fit. @param {HTMLElement} slide */
+const isUnderWay = (slide) =>
+  slide.querySelector(".scroll .rows > .cell:nth-child(even):empty") !== null ||
+  [...slide.querySelectorAll(".scroll .formula:not(.wide)")].some((one) => one.scrollWidth > one.clientWidth + 1);
 
 /** How far a drawing in the corner of a slide reaches down into what is scrolled, in pixels. @param {HTMLElement} slide @param {HTMLElement} scroll */
 function cornerOf(slide, scroll) {
