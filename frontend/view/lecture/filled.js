@@ -7,8 +7,8 @@ import { refit } from "../formula.js";
 
 /** @typedef {{dense: string, place: string, close: boolean}} Arranged */
 
-/** What is estimated may be a little off: then all of it becomes smaller by this much, so many times. */
-const SMALLER = 0.93;
+/** What is estimated may be a little off: then all of it becomes smaller by as much as it is too high, and at least by this, so many times. */
+const SMALLER = 0.99;
 const TRIES = 8;
 /** So many times, two frames each, rows are waited for that are not typeset yet, or are still wider than their place. */
 const PATIENCE = 20;
@@ -50,8 +50,7 @@ export function createFilled(root) {
     const style = getComputedStyle(scroll);
     const inner = (/** @type {string} */ a, /** @type {string} */ b) => parseFloat(a) + parseFloat(b);
     const around = inner(style.paddingTop, style.paddingBottom);
-    const taken = formulas.reduce((sum, formula) => sum + formula.offsetHeight, 0);
-    const words = [...scroll.children].reduce((sum, child) => sum + outer(child), 0) - taken;
+    const words = [...scroll.children].reduce((sum, child) => sum + outer(child), 0) - heightOf(formulas);
     return {
       width: clientWidth - inner(style.paddingLeft, style.paddingRight) - PADDING * rem(),
       height: clientHeight - around - words,
@@ -126,11 +125,12 @@ export function createFilled(root) {
 
   /** What came out higher than was estimated becomes smaller, when all of it is there. @param {HTMLElement} slide @param {number} size @param {number} tried @param {number} [waited] */
   function check(slide, size, tried, waited = 0) {
+    if (isUnderWay(slide) && waited < PATIENCE) return later(() => check(slide, size, tried, waited + 1));
     const scroll = slide.querySelector(".scroll");
-    const smaller = Math.max(bounds(shorter()).least, size * SMALLER);
-    if (isUnderWay(slide) && waited < PATIENCE) later(() => check(slide, size, tried, waited + 1));
-    else if (scroll && scroll.scrollHeight > scroll.clientHeight + 1 && tried < TRIES && smaller < size)
-      set(slide, smaller, tried + 1);
+    const over = scroll ? scroll.scrollHeight - scroll.clientHeight : 0;
+    const part = Math.min(SMALLER, 1 - over / Math.max(1, heightOf(slide.querySelectorAll(".scroll .formula"))));
+    const smaller = Math.max(bounds(shorter()).least, size * part);
+    if (over > 1 && tried < TRIES && smaller < size) set(slide, smaller, tried + 1);
     else slide.dataset.filled = "";
   }
 
@@ -143,6 +143,10 @@ export function createFilled(root) {
 }
 
 const placesOn = () => (narrow.matches ? PLACES.narrow : PLACES.wide);
+
+/** @param {Iterable<Element>} formulas */
+const heightOf = (formulas) =>
+  [...formulas].reduce((sum, formula) => sum + /** @type {HTMLElement} */ (formula).offsetHeight, 0);
 
 /** Whether rows of a slide are still to come or to be made to fit. @param {HTMLElement} slide */
 const isUnderWay = (slide) =>
