@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+from types import MappingProxyType
 from typing import Literal
 
 # The languages of the texts.
@@ -41,12 +43,15 @@ SearchEnd = Literal["budget", "continuum", "singular"]
 # its operations were spent, its time was over, it failed, or it is not made for scenes with constraints, or on rates.
 OptionalPart = Literal["model", "equilibria", "small-motions", "integrals", "relative-equilibria", "canonical"]
 Missing = Literal["later", "budget", "time", "failed", "constraints", "rates"]
+# What is added to the name of a part that is missing for a reason of the scene's own, to name the sentence about it.
+OWN_REASONS: Mapping[Missing, str] = MappingProxyType({"constraints": "-constrained", "rates": "-rates"})
 # Among which generators symmetries are sought: those affine in coordinates and time; motions of space and rigid bodies.
 GeneratorFamily = Literal["affine", "motions-of-space"]
 # What holds a part of a scene fixed: a length, another parameter of positions, the guide of a coordinate.
 HoldKind = Literal["length", "angle", "guide"]
+# What happens where a motion goes on.
+TransitionKind = Literal["impact", "rest", "release", "stick", "slip", "turn"]
 # Whether a load has a potential, by the curl of its generalized forces.
-TransitionKind = Literal["impact", "rest", "release", "stick", "slip", "turn"]  # what happens where a motion goes on
 CurlOutcome = Literal[
     "conservative",
     "conservative-in-time",

@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from ..derivation.rules.left_out import REASONS
-from ..vocabulary import Missing, OptionalPart
+from ..vocabulary import OWN_REASONS, Missing, OptionalPart
 from .catalog import text
 from .prose import plain
 
@@ -35,6 +34,6 @@ def outcomes_explained(outcomes: Document, language: str) -> Document:
 
 def missing(part: OptionalPart, reason: Missing, language: str) -> Document:
     """A part of a derivation that is not there, why, and what to do about it."""
-    outcome = f"{part}{REASONS.get(reason, '')}"
+    outcome = f"{part}{OWN_REASONS.get(reason, '')}"
     key = f"rules.left-out.{reason}" if part == "model" else f"rules.steps.left-out.{outcome}"
     return {"part": part, "reason": reason, "text": plain(text(language, key))}

@@ -7,16 +7,12 @@ Source: Davenport, Siret, Tournier, Computer Algebra (1988), ch. 2, on the swell
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from types import MappingProxyType
-
-from ...vocabulary import Missing, OptionalPart
+from ...vocabulary import OWN_REASONS, Missing, OptionalPart
 from ..step import Step
 
 RULE = "left-out"
-REASONS: Mapping[Missing, str] = MappingProxyType({"constraints": "-constrained", "rates": "-rates"})
 
 
 def apply(part: OptionalPart, why: Missing) -> Step:
     """A step of words only."""
-    return Step(RULE, part, (), (), {"outcome": f"{part}{REASONS.get(why, '')}"})
+    return Step(RULE, part, (), (), {"outcome": f"{part}{OWN_REASONS.get(why, '')}"})
