@@ -161,7 +161,7 @@ def test_charts_write_symbols_and_the_words_of_the_scene() -> None:
 
 
 def test_methods_are_told_apart_by_look() -> None:
-    colors = [look(name)["color"] for name in method_ids()] + [look(f"scipy-{name}")["color"] for name in PEERS]
+    colors = [look(name)["color"] for name in method_ids()] + [look(name)["color"] for name in PEERS]
     assert len(set(colors)) == len(colors)
     assert len({(look(name)["symbol"], look(name)["dash"]) for name in method_ids()}) == len(method_ids())
 

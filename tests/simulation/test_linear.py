@@ -41,9 +41,3 @@ def test_solution_is_that_of_numpy(matrix: np.ndarray) -> None:
 )
 def test_what_has_no_solution(matrix: list[list[float]]) -> None:
     assert decompose(np.array(matrix), np.zeros(len(matrix), dtype=np.int64)) is False
-
-
-def test_parts_of_kernels_refuse_to_be_called_from_python() -> None:
-    """There is no machine code that could be run."""
-    with pytest.raises(TypeError, match=r"^decompose is a part of kernels, and cannot be called from Python$"):
-        linear.decompose(np.eye(2), np.zeros(2, dtype=np.int64))

@@ -80,3 +80,8 @@ def numbers(system: System) -> dict[sp.Symbol, sp.Expr]:
 def inequality(system: System, smaller: sp.Expr, larger: sp.Expr) -> Relation:
     """smaller < larger at the scene's values."""
     return Relation((Inserted(Explicit(smaller), numbers(system)), Inserted(Explicit(larger), numbers(system))), "<")
+
+
+def premises(linear: Linearization, number: int) -> tuple[str, ...]:
+    """What is named beside the quantities in a step: on constraints M and K have no names of their own before."""
+    return (f"linearization:{number}",) if linear.tangent else ()

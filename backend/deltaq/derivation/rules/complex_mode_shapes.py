@@ -17,7 +17,7 @@ from ..spectrum import ComplexMode, Spectrum
 from ..step import Relation, Step
 from ..system import System
 from ._roots import Root, roots_of
-from ._shape import matrices, numbers, zero
+from ._shape import matrices, numbers, premises, zero
 
 RULE = "complex-mode-shapes"
 
@@ -30,7 +30,7 @@ def apply(system: System, linear: Linearization, spectrum: Spectrum, number: int
         for index, mode in enumerate(spectrum.complex_modes, 1)
         for line in _lines(system, linear, mode, roots[mode.eigenvalue], index)
     )
-    return Step(RULE, str(number), tuple(lines), (), {"number": str(number)})
+    return Step(RULE, str(number), tuple(lines), (), {"number": str(number)}, premises=premises(linear, number))
 
 
 def _lines(system: System, linear: Linearization, mode: ComplexMode, root: Root, index: int) -> Iterator[Relation]:

@@ -32,7 +32,7 @@ from ..step import Relation, Step
 from ..system import System
 from . import complex_mode_shapes
 from ._roots import roots_of
-from ._shape import matrices, numbers, plain_value, zero
+from ._shape import matrices, numbers, plain_value, premises, zero
 
 RULE = "eigenfrequencies"
 SHAPES = "mode-shapes"
@@ -46,7 +46,7 @@ def apply(system: System, linear: Linearization, spectrum: Spectrum, number: int
     """The characteristic equation by its roots, and what they are in numbers."""
     if not spectrum.modes:
         lines = tuple(_damped(system, linear, spectrum))
-        damped = Step(RULE, str(number), lines, (), _about("damped", number), premises=_premises(linear, number))
+        damped = Step(RULE, str(number), lines, (), _about("damped", number), premises=premises(linear, number))
         shapes = () if linear.is_scalar else (complex_mode_shapes.apply(system, linear, spectrum, number),)
         return damped.with_substeps(*shapes)
     squares = tuple(mode.square for mode in spectrum.modes)
@@ -62,13 +62,8 @@ def apply(system: System, linear: Linearization, spectrum: Spectrum, number: int
         number_of = Inserted(Inserted(name, written), numbers(system))
         shown.append(Relation((number_of, Rounded(known[symbol], _unit(symbol))), "≈"))
     about = _about(_outcome(squares), number)
-    step = Step(RULE, str(number), tuple(shown), (), about, premises=_premises(linear, number))
+    step = Step(RULE, str(number), tuple(shown), (), about, premises=premises(linear, number))
     return step if linear.is_scalar else step.with_substeps(_shapes(system, linear, spectrum, found, number))
-
-
-def _premises(linear: Linearization, number: int) -> tuple[str, ...]:
-    """On constraints no quantity before has a name of its own for M and K."""
-    return (f"linearization:{number}",) if linear.tangent else ()
 
 
 def _about(outcome: str, number: int) -> dict[str, str]:
@@ -172,4 +167,5 @@ def _shapes(
         law = Inserted(MatrixTimes(Plus((Term(stiffness), moved)), name), {symbol: root})
         lines.append(Relation((law if found else Inserted(law, numbers(system)), zero(linear.mass.rows))))
         lines.append(Relation((name, Explicit(shape) if found else Rounded(shape)), "=" if found else "≈"))
-    return Step(SHAPES, str(number), tuple(lines), (), {"number": str(number)})
+    about = {"number": str(number)}
+    return Step(SHAPES, str(number), tuple(lines), (), about, premises=premises(linear, number))
