@@ -4,6 +4,8 @@ import { FRONT, turned, viewBy } from "../../frontend/model/drawing/camera.js";
 import { figureOf, KINDS, withDrawing } from "../../frontend/model/drawing/figure.js";
 import { arcFrom, coil, sliverFrom, wrapped } from "../../frontend/model/drawing/geometry.js";
 import { forceLatex } from "../../frontend/model/drawing/marks.js";
+import { axesOf } from "../../frontend/model/drawing/axes.js";
+import { letterSize } from "../../frontend/model/drawing/placing.js";
 import { stageOf, viewOf } from "../../frontend/model/drawing/stage.js";
 import { markerOf } from "../../frontend/model/symbols.js";
 import { snapshotAt } from "../../frontend/model/trajectory.js";
@@ -387,5 +389,17 @@ test("the rim of a wheel in space goes through both of its places", () => {
   for (const end of [places.a, places.b]) {
     const [x, y] = stage.project(end);
     assert.ok(rim.some((value, i) => i % 2 === 0 && Math.hypot(value - x, rim[i + 1] - y) < 0.02), `${end}`);
+  }
+});
+
+test("letters of the axes are whole in a drawing however small", () => {
+  for (const side of [150, 200, 400, 1600]) {
+    for (const vertical of /** @type {const} */ (["up", "down"])) {
+      const small = stageOf({ ...scene, drawing: { ...scene.drawing, vertical } }, trajectory, square(side), { rem: 28 });
+      const half = letterSize(small) * 0.6;
+      for (const { at, key } of axesOf(small).labels) {
+        assert.ok(at[0] >= half && at[1] >= half && at[1] <= side - half, `${key} at ${at} of ${side}`);
+      }
+    }
   }
 });

@@ -36,7 +36,7 @@ export function axesOf(stage) {
     const room = BEYOND * unit + (em * (HALF[0] * Math.abs(x) + HALF[1] * Math.abs(y))) / long;
     return scaled([x, y], 1 + room / long);
   });
-  const margin = MARGIN * unit;
+  const margin = Math.max(MARGIN * unit, em); // letters are not smaller in a small drawing
   /** @type {Pixel} */
   const corner = [
     margin - Math.min(0, ...ends.map(([x]) => x)),
