@@ -11,7 +11,6 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from importlib import import_module
 from importlib.util import find_spec
-from types import MappingProxyType
 from typing import Any
 
 from ..model import tape as t
@@ -20,26 +19,6 @@ from ..simulation.problem import Problem
 
 NAME = "heyoka"
 Expression = Any  # heyoka's own type, where it is installed
-
-_FUNCTIONS: Mapping[int, str] = MappingProxyType(
-    {
-        t.EXPONENTIAL: "exp",
-        t.LOGARITHM: "log",
-        t.SINE: "sin",
-        t.COSINE: "cos",
-        t.TANGENT: "tan",
-        t.ARCSINE: "asin",
-        t.ARCCOSINE: "acos",
-        t.ARCTANGENT: "atan",
-        t.ARCTANGENT_2: "atan2",
-        t.HYPERBOLIC_SINE: "sinh",
-        t.HYPERBOLIC_COSINE: "cosh",
-        t.HYPERBOLIC_TANGENT: "tanh",
-        t.AREA_SINE: "asinh",
-        t.AREA_COSINE: "acosh",
-        t.AREA_TANGENT: "atanh",
-    }
-)
 
 
 def can_do(problem: Problem) -> bool:
@@ -85,7 +64,7 @@ def _value(code: int, a: Expression, b: Expression, constant: float) -> Expressi
     if code in simple:
         return simple[code]()
     operands = (a, b) if code == t.ARCTANGENT_2 else (a,)
-    return getattr(import_module(NAME), _FUNCTIONS[code])(*operands)
+    return getattr(import_module(NAME), t.NAMES[code])(*operands)
 
 
 def eliminated(m: list[list[Expression]], f: list[Expression]) -> list[Expression]:

@@ -52,22 +52,7 @@ class Value:
 
 
 _OF_TAPE: Mapping[int, str] = MappingProxyType(
-    {
-        t.EXPONENTIAL: "exp",
-        t.LOGARITHM: "log",
-        t.SINE: "sin",
-        t.COSINE: "cos",
-        t.TANGENT: "tan",
-        t.ARCSINE: "asin",
-        t.ARCCOSINE: "acos",
-        t.ARCTANGENT: "atan",
-        t.HYPERBOLIC_SINE: "sinh",
-        t.HYPERBOLIC_COSINE: "cosh",
-        t.HYPERBOLIC_TANGENT: "tanh",
-        t.AREA_SINE: "asinh",
-        t.AREA_COSINE: "acosh",
-        t.AREA_TANGENT: "atanh",
-    }
+    {code: name for code, name in t.NAMES.items() if code != t.ARCTANGENT_2}  # those of one operand
 )
 _NUMPY: Mapping[str, Callable[..., Floats]] = MappingProxyType(
     {

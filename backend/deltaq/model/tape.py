@@ -45,6 +45,8 @@ _FUNCTIONS: Mapping[str, int] = MappingProxyType(
         "log": LOGARITHM,
     }
 )
+# Names of functions, by operation.
+NAMES: Mapping[int, str] = MappingProxyType({EXPONENTIAL: "exp", **{code: name for name, code in _FUNCTIONS.items()}})
 _RECIPROCALS: Mapping[str, int] = MappingProxyType({"sec": COSINE, "csc": SINE, "cot": TANGENT})
 
 
