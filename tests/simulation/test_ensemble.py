@@ -12,10 +12,12 @@ from deltaq.errors import Problem, RequestError
 from deltaq.mechanics.library import load_scene
 from deltaq.mechanics.writing import write_scene
 from deltaq.simulation.driver import simulate
-from deltaq.simulation.ensemble import Ensemble, run_ensemble
+from deltaq.simulation.ensemble import Ensemble, in_lanes, run_ensemble
 from deltaq.simulation.ensemble_answer import run
 from deltaq.simulation.library import get_method
 from deltaq.simulation.problem import Problem as Motion
+from deltaq.simulation.run import Steps
+from deltaq.simulation.run import run as run_alone
 from deltaq.simulation.service import problem_of
 
 
@@ -45,6 +47,23 @@ def test_runs_do_not_depend_on_their_neighbours() -> None:
     together, apart = run_ensemble(ensemble, 1e-9), run_ensemble(ensemble.chosen(np.array([17])), 1e-9)
     np.testing.assert_array_equal(together.values[17], apart.values[0])
     np.testing.assert_array_equal(together.errors[17], apart.errors[0])
+
+
+@pytest.mark.parametrize("name", ["double-pendulum", "spherical-pendulum"])
+def test_steps_are_those_of_the_motion_alone(name: str) -> None:
+    """Vectors of lanes choose them by logarithms of their own, and a run alone by those of the C library."""
+    ensemble, times, flag = (
+        cloud(problem_of(load_scene(name), 10.0, 2), 9),
+        np.array([0.0, 10.0]),
+        np.zeros(1, np.int64),
+    )
+    for tolerance in (1e-7, 1e-12):
+        steps = Steps(0.5, tolerance)
+        found = in_lanes(ensemble, times, steps, flag)
+        for index in range(9):
+            alone = run_alone(ensemble.member(index), get_method("taylor"), times, flag, steps)
+            assert found.steps[index] == alone.result.steps
+            np.testing.assert_allclose(found.samples[index, 1], alone.states[-1], rtol=1e-9, atol=1e-9)
 
 
 def test_one_run_may_fail_and_the_others_not() -> None:

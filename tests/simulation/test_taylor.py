@@ -39,6 +39,11 @@ def coefficients(problem: Problem, order: int, lanes: int = 1, effort: int = QUI
 
 FORCES = {
     "sin(x)*cos(2*x)": lambda x, u, t: mp.sin(x) * mp.cos(2 * x),
+    "sin(x)*cos(2*t) - cos(x)*sin(2*t)": lambda x, u, t: mp.sin(x - 2 * t),
+    "cos(2*t)*sin(x) + sin(2*t)*cos(x)": lambda x, u, t: mp.sin(x + 2 * t),
+    "3*cos(x)*sin(t) - 3*cos(t)*sin(x)": lambda x, u, t: 3 * mp.sin(t - x),
+    "-cos(x)*cos(t) - sin(t)*sin(x)": lambda x, u, t: -mp.cos(x - t),
+    "sin(x)*sin(t) - cos(t)*cos(x) + cos(t)": lambda x, u, t: mp.cos(t) - mp.cos(x + t),
     "tan(x/2) + t": lambda x, u, t: mp.tan(x / 2) + t,
     "exp(-x)*log(2 + x)": lambda x, u, t: mp.exp(-x) * mp.log(2 + x),
     "sqrt(1 + x^2) - x^3": lambda x, u, t: mp.sqrt(1 + x**2) - x**3,

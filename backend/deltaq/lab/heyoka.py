@@ -13,6 +13,8 @@ from importlib import import_module
 from importlib.util import find_spec
 from typing import Any
 
+import numpy as np
+
 from ..model import tape as t
 from ..model.tape import Tape
 from ..simulation.problem import Problem
@@ -30,16 +32,29 @@ def can_do(problem: Problem) -> bool:
 
 def solver(problem: Problem, tolerance: float, parameters: Sequence[float] | None = None) -> Any:
     """heyoka's integrator, at the initial state; `parameters` in the place of the problem's own."""
+    return import_module(NAME).taylor_adaptive(
+        _system(problem, parameters or problem.parameters), list(problem.state[: 2 * problem.degrees]), tol=tolerance
+    )
+
+
+def batch_solver(problem: Problem, tolerance: float) -> Any:
+    """heyoka's integrator for as many motions side by side as it recommends, all at the initial state."""
+    hy = import_module(NAME)
+    start = np.repeat(problem.state[: 2 * problem.degrees, None], hy.recommended_simd_size(), axis=1)
+    return hy.taylor_adaptive_batch(_system(problem, problem.parameters), start, tol=tolerance)
+
+
+def _system(problem: Problem, parameters: Sequence[float]) -> list[tuple[Expression, Expression]]:
+    """The derivative of each variable."""
     hy, n = import_module(NAME), problem.degrees
     variables = hy.make_vars(*(f"x{i}" for i in range(2 * n)))
-    numbers = [hy.expression(float(value)) for value in parameters or problem.parameters]
+    numbers = [hy.expression(float(value)) for value in parameters]
     values = _values(problem.model.tape, [*variables, hy.time, *numbers])
     outputs = [values[place] for place in problem.model.tape.outputs]
     mass = [[outputs[max(i, j) * (max(i, j) + 1) // 2 + min(i, j)] for j in range(n)] for i in range(n)]
     first = n * (n + 1) // 2
     bends = eliminated(mass, outputs[first : first + n])
-    system = [*zip(variables[:n], variables[n:], strict=True), *zip(variables[n:], bends, strict=True)]
-    return hy.taylor_adaptive(system, list(problem.state[: 2 * n]), tol=tolerance)
+    return [*zip(variables[:n], variables[n:], strict=True), *zip(variables[n:], bends, strict=True)]
 
 
 def _values(tape: Tape, inputs: Sequence[Expression]) -> list[Expression]:

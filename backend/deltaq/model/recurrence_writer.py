@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
 from types import MappingProxyType
 from typing import Any
 
 import numpy as np
 
 from . import tape as t
+from .recurrence_solving import Value, solved
 from .recurrences import (
     ADD,
     ANGLE,
@@ -31,6 +31,7 @@ from .recurrences import (
     SQUARE,
     SUBTRACT,
     WITH_CONSTANT,
+    WITH_FUNCTION,
     Condition,
     Floats,
     Formula,
@@ -41,14 +42,6 @@ from .recurrences import (
 from .tape import Tape
 
 LARGEST_EXPONENT = 16  # of whole powers that are made by multiplication
-
-
-@dataclass(frozen=True)
-class Value:
-    """A series at a place, or a constant: the formula of that number."""
-
-    place: int
-    is_constant: bool
 
 
 _OF_TAPE: Mapping[int, str] = MappingProxyType(
@@ -76,48 +69,13 @@ def recurrences_of(tape: Tape, degrees: int, *, is_powered: bool = False) -> Rec
     values = writer.read(tape)
     outputs = [values[place] for place in tape.outputs]
     triangle, rest = outputs[: degrees * (degrees + 1) // 2], outputs[degrees * (degrees + 1) // 2 :]
-    accelerations, pivots = _solved(writer, triangle, rest[:degrees])
+    accelerations, pivots = solved(writer, triangle, rest[:degrees])
     power = None
     if is_powered:
         power = rest[degrees]
         for share, bend in zip(rest[degrees + 1 :], accelerations, strict=True):
             power = writer.add(power, writer.multiply(share, bend))
     return writer.finished(accelerations, power, pivots)
-
-
-def _solved(writer: _Writer, m: list[Value], f: list[Value]) -> tuple[list[Value], list[tuple[Value, Value]]]:
-    """q̈ from M q̈ = f, and the pivots with the diagonal entries that they are left of.
-
-    By determinants for two coordinates, since that takes fewest divisions, by L D Lᵀ for any other number.
-    """
-    n, w = len(f), writer
-    if n == 2:
-        a, b, c = m
-        largest = w.multiply(a, c)
-        determinant = w.subtract(largest, w.multiply(b, b))
-        first = w.subtract(w.multiply(c, f[0]), w.multiply(b, f[1]))
-        second = w.subtract(w.multiply(a, f[1]), w.multiply(b, f[0]))
-        found = [w.divide(each, determinant) for each in (first, second)]
-        return found, [(a, a), (determinant, largest)]
-    pivots: list[Value] = []
-    lower: list[list[Value]] = []
-    scaled: list[list[Value]] = []  # L D, row by row
-    for i in range(n):
-        row = m[i * (i + 1) // 2 : (i + 1) * (i + 2) // 2]
-        products: list[Value] = []
-        for j in range(i):
-            products.append(w.minus_products(row[j], products[:j], lower[j]))
-        factors = [w.divide(product, pivots[j]) for j, product in enumerate(products)]
-        pivots.append(w.minus_products(row[i], products, factors))
-        lower.append(factors)
-        scaled.append(products)
-    x: list[Value] = []
-    for i in range(n):
-        x.append(w.minus_products(f[i], lower[i], x))
-    for i in range(n - 1, -1, -1):
-        later = range(i + 1, n)
-        x[i] = w.minus_products(w.divide(x[i], pivots[i]), [lower[k][i] for k in later], [x[k] for k in later])
-    return x, [(pivots[i], m[(i + 1) * (i + 2) // 2 - 1]) for i in range(n)]
 
 
 class _Writer:
@@ -132,6 +90,7 @@ class _Writer:
         self._places: dict[Operation, int] = {}
         self._known: dict[tuple[object, ...], int] = {}
         self._conditions: dict[Condition, int] = {}
+        self._factors: dict[int, tuple[float, tuple[int, ...]]] = {}  # signs and factors of constants
 
     # constants
 
@@ -151,6 +110,30 @@ class _Writer:
         if key not in self._known:
             self._known[key] = self._formula(Formula(function, tuple(each.place for each in operands)))
         return Value(self._known[key], is_constant=True)
+
+    def _constant_product(self, *constants: Value) -> Value:
+        """The product of constants: the same one, in whatever order and with whatever parentheses it is asked for."""
+        sign, factors = 1.0, list[int]()
+        for each in constants:
+            literal = self._literal(each)
+            mine, parts = self._factors.get(each.place, (1.0, (each.place,)))
+            if literal is not None and abs(literal) == 1.0:
+                mine, parts = literal, ()
+            sign, factors = sign * mine, [*factors, *parts]
+        factors.sort()
+        found = self.number(1.0) if not factors else Value(factors[0], is_constant=True)
+        for place in factors[1:]:
+            found = self._derived(np.multiply, found, Value(place, is_constant=True))
+        if factors and sign < 0.0:
+            found = self._derived(np.negative, found)
+        elif not factors:
+            found = self.number(sign)
+        self._factors[found.place] = (sign, tuple(factors))
+        return found
+
+    def _is_negative_of(self, a: Value, b: Value) -> bool:
+        """Whether a = −b is known of two constants."""
+        return self._constant_product(self.number(-1.0), a) == b
 
     def _literal(self, value: Value) -> float | None:
         """The number that a value is whatever the parameters."""
@@ -183,43 +166,82 @@ class _Writer:
             a, b = b, a
         if b.is_constant:
             return a if self._literal(b) == 0.0 else self._write(SHIFT, a.place, constant=b.place)
-        for one, other in ((a, b), (b, a)):
-            positive = self._negated(other)
-            if positive is not None:
-                return self._write(SUBTRACT, one.place, positive.place)
-        return self._write(ADD, *sorted((a.place, b.place)))
+        (x, of_x), (y, of_y) = self._scaled(a), self._scaled(b)
+        if of_x is not None and of_x == of_y:
+            return self.multiply(of_x, self.add(x, y))
+        if of_x is not None and of_y is not None and self._is_negative_of(of_x, of_y):
+            return self.multiply(of_x, self.subtract(x, y))
+        for one, other, factor in ((a, y, of_y), (b, x, of_x)):
+            if factor is not None and self._literal(factor) == -1.0:
+                return self.subtract(one, other)
+        return self._of_angles(a, b, is_sum=True) or self._write(ADD, *sorted((a.place, b.place)))
 
-    def _negated(self, value: Value) -> Value | None:
-        """x of a value −x."""
+    def _scaled(self, value: Value) -> tuple[Value, Value | None]:
+        """x and γ of a value γ x; of any other itself and None."""
         operation = self._operation(value)
         if operation is None or operation.code != SCALE:
-            return None
-        factor = self._literal(Value(operation.constant, is_constant=True))
-        return Value(operation.a, is_constant=False) if factor == -1.0 else None
+            return value, None
+        return Value(operation.a, is_constant=False), Value(operation.constant, is_constant=True)
 
     def subtract(self, a: Value, b: Value) -> Value:
         """a − b."""
-        if not a.is_constant and not b.is_constant:
-            return self._write(SUBTRACT, a.place, b.place)
-        return self.add(a, self.multiply(self.number(-1.0), b))
+        if a.is_constant or b.is_constant:
+            return self.add(a, self.multiply(self.number(-1.0), b))
+        (x, of_x), (y, of_y) = self._scaled(a), self._scaled(b)
+        if of_x is not None and of_x == of_y:
+            return self.multiply(of_x, self.subtract(x, y))
+        if of_x is not None and of_y is not None and self._is_negative_of(of_x, of_y):
+            return self.multiply(of_x, self.add(x, y))
+        if of_y is not None and self._literal(of_y) == -1.0:
+            return self.add(a, y)
+        return self._of_angles(a, b, is_sum=False) or self._write(SUBTRACT, a.place, b.place)
+
+    def _of_angles(self, a: Value, b: Value, *, is_sum: bool) -> Value | None:
+        """a ± b by the sine or cosine of a sum or difference of two angles, where the addition theorems know one."""
+        first, second = self._circular(a), self._circular(b)
+        if first.keys() != second.keys() or len(first) != 2 or any(first[x] == second[x] for x in first):
+            return None
+        x, y = sorted(first)
+        names, one, minus = [first[x], first[y]], Value(x, is_constant=False), self.number(-1.0)
+        other = Value(y, is_constant=False)
+        if names[0] == names[1]:  # cos x cos y ± sin x sin y, or the other way round
+            found = self.function("cos", self.subtract(one, other) if is_sum else self.add(one, other))
+            return found if is_sum or names[0] == "cos" else self.multiply(minus, found)
+        found = self.function("sin", self.add(one, other) if is_sum else self.subtract(one, other))
+        return found if is_sum or names[0] == "sin" else self.multiply(minus, found)
+
+    def _circular(self, value: Value) -> Mapping[int, str]:
+        """Of a product of two sines or cosines: which of an angle at which place."""
+        operation = self._operation(value)
+        found: dict[int, str] = {}
+        for place in (operation.a, operation.b) if operation is not None and operation.code == MULTIPLY else ():
+            factor = self._operation(Value(place, is_constant=False))
+            if factor is not None and factor.code in WITH_FUNCTION and FUNCTIONS[factor.c] in ("sin", "cos"):
+                found[factor.a] = FUNCTIONS[factor.c]
+        return found
 
     def multiply(self, a: Value, b: Value) -> Value:
         """a b."""
         if a.is_constant and b.is_constant:
-            return self._derived(np.multiply, a, b)
+            return self._constant_product(a, b)
         if b.is_constant:
             a, b = b, a
         if not a.is_constant:
-            if a == b:
-                return self._write(SQUARE, a.place)
-            return self._write(MULTIPLY, *sorted((a.place, b.place)))
-        literal, operation = self._literal(a), self._operation(b)
+            return self._product(a, b)
+        literal, (x, factor) = self._literal(a), self._scaled(b)
         if literal is not None and literal in (0.0, 1.0):
             return a if literal == 0.0 else b
-        if operation is not None and operation.code == SCALE:
-            factor = self.multiply(a, Value(operation.constant, is_constant=True))
-            return self.multiply(factor, Value(operation.a, is_constant=False))
+        if factor is not None:
+            return self.multiply(self.multiply(a, factor), x)
         return self._write(SCALE, b.place, constant=a.place)
+
+    def _product(self, a: Value, b: Value) -> Value:
+        """a b of two series; constant factors come before it."""
+        (x, of_x), (y, of_y) = self._scaled(a), self._scaled(b)
+        if of_x is not None or of_y is not None:
+            one = self.number(1.0)
+            return self.multiply(self.multiply(of_x or one, of_y or one), self._product(x, y))
+        return self._write(SQUARE, a.place) if a == b else self._write(MULTIPLY, *sorted((a.place, b.place)))
 
     def divide(self, a: Value, b: Value) -> Value:
         """a / b."""

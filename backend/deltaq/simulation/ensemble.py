@@ -18,7 +18,7 @@ from ..model.recurrences import nudged
 from .audit import Audit
 from .driver import simulate
 from .integration import Flag
-from .kernels.ensemble import LANES, Members, integrate_members, make_lanes
+from .kernels.ensemble import Members, integrate_members, make_lanes
 from .library import get_method
 from .method import Series
 from .outcome import Number, Outcome, outcome_of
@@ -27,13 +27,14 @@ from .problem import Floats, Problem
 from .refinement import BySeries
 from .rounding import short
 from .run import Steps
-from .series.engine import jet_of_model
+from .series.engine import LANES, jet_of_model
 
 BLOCK = 64  # motions between which it is looked for others that may go on
 ROUNDS = 3  # of a smaller local tolerance for those that missed theirs
 LOST = 0.5  # an error this large, relative to the size of the coordinate, leaves no digit
 ROUNDING = 2.0**-51
 SCHEME = Series(8)
+AHEAD, BELOW = 0.1, 1e-2  # the first local tolerance over the tolerance, that of the finer run over that of the coarser
 
 
 @dataclass(frozen=True)
@@ -89,7 +90,7 @@ def run_ensemble(
     by one: `simulate` knows how.
     """
     flag = np.zeros(1, dtype=np.int64) if cancelled is None else cancelled
-    tell, refinement = report or (lambda _done: None), BySeries(ensemble.problem.t_end, SCHEME)
+    tell, refinement = report or (lambda _done: None), _refinement(ensemble)
     if needs_single_runs(ensemble):
         return _one_by_one(ensemble, tolerance, flag, tell)
     resolution = refinement.first(tolerance)
@@ -119,11 +120,16 @@ def needs_single_runs(ensemble: Ensemble) -> bool:
     return not Audit(ensemble.problem, get_method("taylor")).before(1e-6).is_whole
 
 
+def _refinement(ensemble: Ensemble) -> BySeries:
+    """Less is asked of all than of a motion alone: those that miss their tolerance are run anew, and no others."""
+    return BySeries(ensemble.problem.t_end, SCHEME, AHEAD, BELOW)
+
+
 def _pair(
     ensemble: Ensemble, resolution: float, tolerance: float, flag: Flag, tell: Callable[[int], None]
 ) -> EnsembleMotion:
     """Two runs of all motions, their difference the estimate."""
-    refinement = BySeries(ensemble.problem.t_end, SCHEME)
+    refinement = _refinement(ensemble)
     coarse, fine = refinement.pair(resolution, Pieces.whole(ensemble.problem.t_end))
     runs = _run(ensemble, coarse, flag, tell), _run(ensemble, replace(fine, is_nudged=True), flag, lambda _done: None)
     return _judged(ensemble, *runs, refinement.factor_of_answer(coarse, fine), tolerance)
@@ -158,10 +164,11 @@ def in_lanes(
         np.zeros(count, dtype=np.int64),
         np.zeros(count, dtype=np.int64),
     )
-    sizes = (jet.shape.components, jet.shape.width, constants.shape[1], jet.work)
+    sizes, code = (jet.shape.components, constants.shape[1], jet.work, jet.shape.lanes), jet.code.addresses
+    addresses = code["jet"], code["advance"], code["measure"]
 
     def block(start: int) -> int:
-        lanes = make_lanes(jet.code.address, order, problem.degrees, jet.shape.width, sizes)
+        lanes = make_lanes(addresses, order, problem.degrees, jet.shape.width, sizes)
         part = slice(start, start + BLOCK)
         some = members._replace(  # views: what is written stays
             **{name: array[part] for name, array in members._asdict().items() if name != "times"}

@@ -15,14 +15,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..model.recurrences import nudged
-from .kernels.ensemble import LANES
 from .kernels.motion import FINE, NOT_FINITE, SINGULAR, SMALLEST_PIVOT, STEP_LIMIT, STEP_UNDERFLOW, TOO_LARGE
 from .kernels.step import LARGEST_VALUE
 from .kernels.taylor import ALWAYS_UNNOTICED, PLACES, ROOM, SHORTER, UNNOTICED
 from .pieces import Pieces
 from .problem import Floats, Problem
 from .run import Steps
-from .series.engine import jet_of_model
+from .series.engine import LANES, jet_of_model
 
 Integers = NDArray[np.int64]
 Truths = NDArray[np.bool_]
@@ -261,13 +260,13 @@ class March:
 
     def _expanded(self, which: Integers, states: Floats, times: Floats, units: Floats) -> Floats:
         """The coefficients at these states, shape (order + 1, components, lanes)."""
-        count = len(times)
-        blocks = -(-count // LANES)
-        padded = np.minimum(np.arange(blocks * LANES), count - 1)
-        given = np.vstack([units, states, times, self._constants[:, which]])[:, padded].reshape(-1, blocks, LANES)
+        count, lanes = len(times), self.jet.shape.lanes
+        blocks = -(-count // lanes)
+        padded = np.minimum(np.arange(blocks * lanes), count - 1)
+        given = np.vstack([units, states, times, self._constants[:, which]])[:, padded].reshape(-1, blocks, lanes)
         given = np.ascontiguousarray(given.transpose(1, 0, 2))
         # zeros, for the last coefficients of conditions and all but the first of pivots are not written
-        out = np.zeros((blocks, self.order + 1, self.jet.shape.components, LANES))
+        out = np.zeros((blocks, self.order + 1, self.jet.shape.components, lanes))
         to, of, work, program = (each.ctypes.data for each in (out, given, self._work, self._program))
         for block in range(blocks):
             self._call(to + block * out.strides[0], of + block * given.strides[0], work, program)

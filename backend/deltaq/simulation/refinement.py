@@ -151,6 +151,8 @@ class BySeries:
 
     t_end: float
     scheme: Series
+    ahead: float = AHEAD
+    below: float = BELOW
     factor_of_coarse: float = 2.0
     answer: int = FIRST
 
@@ -170,10 +172,10 @@ class BySeries:
         return pieces
 
     def first(self, tolerance: float) -> float:
-        return max(AHEAD * tolerance, FINEST_OF_SERIES)
+        return max(self.ahead * tolerance, FINEST_OF_SERIES)
 
     def pair(self, resolution: float, _pieces: Pieces) -> tuple[Steps, Steps]:
-        largest, finer = LARGEST_OF_SERIES * self.t_end, BELOW * resolution
+        largest, finer = LARGEST_OF_SERIES * self.t_end, self.below * resolution
         coarse = Steps(largest, resolution, order=self.scheme.order_for(resolution))
         return coarse, Steps(largest / APART, finer, order=self.scheme.order_for(finer))
 

@@ -1,4 +1,4 @@
-"""Many motions of one model by Taylor series, eight side by side in the lanes of vectors.
+"""Many motions of one model by Taylor series, some side by side in the lanes of vectors.
 
 Each lane has its own time, step and parameters; one that has come to its end takes up the next motion. The step is that
 of `taylor`, and so is the look at what it really did; where that is bad, the lane goes back and takes a shorter one.
@@ -6,18 +6,25 @@ of `taylor`, and so is the look at what it really did; where that is bad, the la
 
 from __future__ import annotations
 
+import math
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from .compiler import inline, kernel
-from .motion import CANCELLED, FINE, NOT_FINITE, SINGULAR, SMALLEST_PIVOT, STEP_LIMIT, STEP_UNDERFLOW, TOO_LARGE, Floats
+from .motion import CANCELLED, FINE, NOT_FINITE, SINGULAR, STEP_LIMIT, STEP_UNDERFLOW, TOO_LARGE, Floats
 from .pointer import call_jet
 from .step import LARGEST_VALUE
 from .taylor import ALWAYS_UNNOTICED, LEAST_OF_SURPRISING, MOST_ORDERS, SHORTER, UNNOTICED
 
-LANES = 8
+OLD, NEW, OLD_REST, NEW_REST, SLOPES = 0, 1, 2, 3, 4  # rows of states
+# Rows of what is told of steps: θ of the step to go, and of that gone in the new unit of time; that unit, tolerance.
+THETA, GONE, UNIT, TOLERANCE = 0, 1, 2, 3
+# And found: sizes of numbers, pivots (the least margin, and their sum), the defect, the step that is wanted.
+SIZES, MARGINS, PIVOTS, DEFECTS, WANTED = 4, 5, 6, 7, 8
+ROWS = 9
+LINE = 64  # bytes of a line of the cache
 GOES_ON, RESTS, ENDED = 1, 2, 3
 SMALLER, MOST_UNITS = 2.0**-12, 8  # of the unit of time, where the first coefficients are out of range
 Integers = NDArray[np.int64]
@@ -43,26 +50,30 @@ class Members(NamedTuple):
 class Lanes(NamedTuple):
     """The code, and what each lane is at; the last axis of all arrays is that of the lanes.
 
+    There is code for coefficients (`jet`), for the step of all lanes (`advance`) and for what it did (`measure`).
     `given` has shape (numbers, lanes), `coefficients` (2, MOST_ORDERS, components, lanes); `work` has shape (numbers,),
-    `program` (1,). The states `old` and `new`, their rests `old_rest` and `new_rest` and `slopes` have shape (width,
-    lanes). `before` and `now` are times, `sizes` steps, `units` units of time, `least` the largest step that may be
-    tried, and `sizes_before` the steps last taken, shape (lanes,); `member` is the number of a motion, −1 for none, and
-    `is_pending` whether a step waits for its verdict (1), or, negative, how often the first series was out of range.
+    `program` (1,). `states`, shape (5, width, lanes), are `old` and `new`, their rests `old_rest` and `new_rest`, and
+    slopes; `told`, shape (ROWS, lanes), is what the code is told of steps, and tells. `before` and `now` are times,
+    `sizes` steps, `units` units of time, `least` the largest step that may be tried, and `sizes_before` the steps last
+    taken, shape (lanes,); `member` is the number of a motion, −1 for none, and `is_pending` whether a step waits for
+    its verdict (1), or, negative, how often the first series was out of range.
     """
 
-    address: int
+    jet: int
+    advance: int
+    measure: int
     order: int
     degrees: int
-    first_pivot: int
     given: Floats
     coefficients: Floats
     work: Floats
     program: Integers
+    states: Floats
+    told: Floats
     old: Floats
     new: Floats
     old_rest: Floats
     new_rest: Floats
-    slopes: Floats
     before: Floats
     now: Floats
     sizes: Floats
@@ -73,33 +84,43 @@ class Lanes(NamedTuple):
     is_pending: Integers
 
 
-def make_lanes(address: int, order: int, degrees: int, width: int, sizes: tuple[int, int, int, int]) -> Lanes:
-    """The arrays for code at an address; `sizes` are components, the first pivot among them, constants, work space."""
-    components, first_pivot, constants, work = sizes
-    states, rows = np.zeros((5, width, LANES)), np.zeros((4, LANES))
+def make_lanes(
+    addresses: tuple[int, int, int], order: int, degrees: int, width: int, sizes: tuple[int, int, int, int]
+) -> Lanes:
+    """The arrays for code at addresses; `sizes` are components, constants, work space, lanes."""
+    components, constants, work, count = sizes
+    states, rows = aligned(5, width, count), aligned(4, count)
     return Lanes(
-        address,
+        *addresses,
         order,
         degrees,
-        first_pivot,
-        np.ones((width + 2 + constants, LANES)),
-        np.zeros((2, MOST_ORDERS, components, LANES)),
-        np.zeros(work),
+        aligned(width + 2 + constants, count),
+        aligned(2, MOST_ORDERS, components, count),
+        aligned(work),
         np.array([order], dtype=np.int64),
-        states[0],
-        states[1],
-        states[2],
-        states[3],
-        states[4],
+        states,
+        aligned(ROWS, count),
+        states[OLD],
+        states[NEW],
+        states[OLD_REST],
+        states[NEW_REST],
         rows[0],
         rows[1],
         rows[2],
         rows[3],
-        np.ones(LANES),
-        np.full(LANES, np.inf),
-        np.full(LANES, -1, dtype=np.int64),
-        np.zeros(LANES, dtype=np.int64),
+        np.ones(count),
+        np.full(count, np.inf),
+        np.full(count, -1, dtype=np.int64),
+        np.zeros(count, dtype=np.int64),
     )
+
+
+def aligned(*shape: int) -> Floats:
+    """Zeros, shape (…) as given, that begin a line of the processor's cache: no vector lies in two of them."""
+    count = math.prod(shape)
+    room = np.zeros(count + LINE // 8)
+    first = -room.ctypes.data % LINE // 8
+    return room[first : first + count].reshape(shape)
 
 
 @inline
@@ -121,43 +142,36 @@ def take_up(lanes: Lanes, members: Members, lane: int, member: int, near: float)
 
 
 @inline
-def expand_all(lanes: Lanes, row: int) -> None:
-    """The coefficients at the new states of all lanes, each in a power of two near its step as the unit of time."""
+def expand_all(lanes: Lanes, row: int, tolerance: float) -> None:
+    """The coefficients at the new states of all lanes, each in a power of two near its step as the unit of time.
+
+    What they tell of the step before, and the step that they want, stand in `told`.
+    """
     width = lanes.new.shape[0]
-    for lane in range(LANES):
+    for lane in range(lanes.now.size):
         near, unit = lanes.sizes[lane], lanes.given[0, lane]
         if not (0.25 * unit <= near <= 4.0 * unit):
-            lanes.given[0, lane] = 2.0 ** np.floor(np.log2(near))
+            unit = lanes.given[0, lane] = 2.0 ** np.floor(np.log2(near))
         lanes.given[1 + width, lane] = lanes.now[lane]
+        lanes.told[GONE, lane] = lanes.sizes_before[lane] / unit
+        lanes.told[UNIT, lane] = unit
+        lanes.told[TOLERANCE, lane] = tolerance
     for d in range(width):
-        for lane in range(LANES):
+        for lane in range(lanes.now.size):
             lanes.given[1 + d, lane] = lanes.new[d, lane]
-    call_jet(lanes.address, lanes.coefficients[row], lanes.given, lanes.work, lanes.program)
+    call_jet(lanes.jet, lanes.coefficients[row], lanes.given, lanes.work, lanes.program)
+    call_jet(lanes.measure, lanes.coefficients[row], lanes.states, lanes.told, lanes.program)
 
 
 @inline
-def state_of(lanes: Lanes, row: int, lane: int) -> int:
-    """Whether a lane's series can be used: FINE, SINGULAR or NOT_FINITE."""
-    coefficients = lanes.coefficients[row]
-    for i in range(lanes.first_pivot, coefficients.shape[1], 2):
-        pivot, diagonal = coefficients[0, i, lane], coefficients[0, i + 1, lane]
-        if not pivot > SMALLEST_PIVOT * diagonal:
-            return NOT_FINITE if np.isnan(pivot) else SINGULAR
-    total = 0.0
-    for d in range(2 * lanes.degrees):
-        total += abs(coefficients[1, d, lane]) + abs(coefficients[lanes.order, d, lane]) + abs(lanes.new[d, lane])
-    return FINE if total <= LARGEST_VALUE else (NOT_FINITE if np.isnan(total) else TOO_LARGE)
-
-
-@inline
-def defect_in(lanes: Lanes, row: int, lane: int) -> float:
-    """h |x′ − f| at the end of the step before, over max(1, |x|)."""
-    h, largest = lanes.sizes_before[lane], 0.0
-    theta = h / lanes.given[0, lane]
-    for d in range(2 * lanes.degrees):
-        apart = abs(lanes.slopes[d, lane] - theta * lanes.coefficients[row, 1, d, lane])
-        largest = max(largest, apart / max(1.0, abs(lanes.new[d, lane])))
-    return largest
+def state_of(lanes: Lanes, lane: int) -> int:
+    """Whether a lane's series can be used: FINE, SINGULAR, NOT_FINITE or TOO_LARGE."""
+    if lanes.told[MARGINS, lane] <= 0.0:
+        return SINGULAR
+    total = lanes.told[SIZES, lane]
+    if total <= LARGEST_VALUE and not np.isnan(lanes.told[PIVOTS, lane]):
+        return FINE
+    return TOO_LARGE if total > LARGEST_VALUE else NOT_FINITE
 
 
 @inline
@@ -194,13 +208,13 @@ def begin_again(lanes: Lanes, lane: int, outcome: int) -> int:
 
 
 @inline
-def judge_lane(lanes: Lanes, row: int, lane: int, members: Members, tolerance: float) -> int:
+def judge_lane(lanes: Lanes, lane: int, members: Members, tolerance: float) -> int:
     """What becomes of the step before: accepted (1), or taken back (0); a negative number ends the motion."""
-    outcome = state_of(lanes, row, lane)
+    outcome = state_of(lanes, lane)
     if lanes.is_pending[lane] <= 0:
         return 1 if outcome == FINE else begin_again(lanes, lane, outcome)
     h = lanes.sizes_before[lane]
-    defect = defect_in(lanes, row, lane) if outcome == FINE else np.inf
+    defect = lanes.told[DEFECTS, lane] if outcome == FINE else np.inf
     if defect > max(UNNOTICED * tolerance, ALWAYS_UNNOTICED) and lanes.least[lane] > LEAST_OF_SURPRISING * h:
         lanes.least[lane] = lanes.sizes[lane] = SHORTER * h
         lanes.now[lane], lanes.is_pending[lane] = lanes.before[lane], 0
@@ -215,20 +229,10 @@ def judge_lane(lanes: Lanes, row: int, lane: int, members: Members, tolerance: f
 
 
 @inline
-def plan_lane(lanes: Lanes, row: int, lane: int, tolerance: float, largest: float, end: float) -> None:
+def plan_lane(lanes: Lanes, lane: int, largest: float, end: float) -> None:
     """The next step of a lane, as in `taylor`."""
-    last, earlier, order = 0.0, 0.0, lanes.order
-    for d in range(2 * lanes.degrees):
-        scale = 1.0 / max(1.0, abs(lanes.new[d, lane]))
-        last = max(last, abs(lanes.coefficients[row, order, d, lane]) * scale)
-        earlier = max(earlier, abs(lanes.coefficients[row, order - 1, d, lane]) * scale)
-    steepest = max(
-        np.log(last / tolerance) / order if last > 0.0 else -np.inf,
-        np.log(earlier / tolerance) / (order - 1.0) if earlier > 0.0 else -np.inf,
-    )
     lanes.units[lane] = lanes.given[0, lane]
-    wanted = lanes.given[0, lane] * np.exp(-0.7 / (order - 1.0) - steepest)
-    h, left = min(wanted, largest, lanes.least[lane]), end - lanes.now[lane]
+    h, left = min(lanes.told[WANTED, lane], largest, lanes.least[lane]), end - lanes.now[lane]
     lanes.before[lane] = lanes.now[lane]
     is_last = h * (1.0 + 1e-9) >= left
     lanes.sizes[lane] = lanes.sizes_before[lane] = left if is_last else h
@@ -238,40 +242,10 @@ def plan_lane(lanes: Lanes, row: int, lane: int, tolerance: float, largest: floa
 
 @inline
 def advance_all(lanes: Lanes, row: int) -> None:
-    """All lanes go their step, by Horner's rule for the states and for what their series end with as h ẋ."""
-    coefficients, values, slopes = lanes.coefficients[row], lanes.new_rest, lanes.slopes
-    for d in range(lanes.new.shape[0]):
-        for lane in range(LANES):
-            lanes.old[d, lane], lanes.old_rest[d, lane] = lanes.new[d, lane], lanes.new_rest[d, lane]
-            values[d, lane] = coefficients[lanes.order, d, lane]
-            slopes[d, lane] = 0.0
-        for k in range(lanes.order - 1, 0, -1):
-            for lane in range(LANES):
-                theta = lanes.sizes[lane] / lanes.units[lane]
-                slopes[d, lane] = slopes[d, lane] * theta + values[d, lane]
-                values[d, lane] = values[d, lane] * theta + coefficients[k, d, lane]
-        for lane in range(LANES):
-            theta = lanes.sizes[lane] / lanes.units[lane]
-            slopes[d, lane] = theta * (values[d, lane] + theta * slopes[d, lane])
-            change = values[d, lane] * theta + lanes.old_rest[d, lane]
-            lanes.new[d, lane] = lanes.old[d, lane] + change
-            lanes.new_rest[d, lane] = change - (lanes.new[d, lane] - lanes.old[d, lane])
-
-
-@inline
-def rest_and_advance(lanes: Lanes, row: int) -> None:
-    """Lanes whose step is planned go it; the others stay where they are, with a step of length 0 for this round."""
-    for lane in range(LANES):
-        if lanes.is_pending[lane] <= 0:
-            lanes.sizes_before[lane] = lanes.sizes[lane]
-            lanes.sizes[lane] = 0.0
-            for k in range(1, lanes.order + 1):
-                for d in range(lanes.new.shape[0]):
-                    lanes.coefficients[row, k, d, lane] = 0.0
-    advance_all(lanes, row)
-    for lane in range(LANES):
-        if lanes.is_pending[lane] <= 0:
-            lanes.sizes[lane] = lanes.sizes_before[lane]
+    """Lanes whose step is planned go it; the others stay where they are for this round."""
+    for lane in range(lanes.now.size):
+        lanes.told[THETA, lane] = lanes.sizes[lane] / lanes.units[lane] if lanes.is_pending[lane] > 0 else 0.0
+    call_jet(lanes.advance, lanes.coefficients[row], lanes.states, lanes.told, lanes.program)
 
 
 @inline
@@ -286,7 +260,7 @@ def verdict_on(
     if member < 0:
         return RESTS
     was_pending = lanes.is_pending[lane] == 1
-    outcome = judge_lane(lanes, row, lane, members, tolerance)
+    outcome = judge_lane(lanes, lane, members, tolerance)
     if outcome == 1 and was_pending:
         sample_lane(lanes, 1 - row, lane, members)
     if outcome == 1 and members.steps[member] >= limit:
@@ -309,23 +283,23 @@ def integrate_members(
     """
     count, following, busy, row = members.states.shape[0], 0, 0, 0
     end = members.times[members.times.size - 1]
-    for lane in range(LANES):
+    for lane in range(lanes.now.size):
         take_up(lanes, members, lane, following if following < count else -1, largest)
         busy += 1 if following < count else 0
         following += 1
         if lanes.member[lane] < 0:
             lanes.sizes[lane] = largest
     while busy > 0:
-        expand_all(lanes, row)
-        for lane in range(LANES):
+        expand_all(lanes, row, tolerance)
+        for lane in range(lanes.now.size):
             verdict = verdict_on(lanes, row, lane, members, tolerance, limit, cancelled)
             if verdict == GOES_ON:
-                plan_lane(lanes, row, lane, tolerance, largest, end)
+                plan_lane(lanes, lane, largest, end)
                 continue
             lanes.units[lane] = lanes.given[0, lane]  # its series is not known yet: it rests for this round
             if verdict == ENDED:
                 take_up(lanes, members, lane, following if following < count else -1, largest)
                 busy -= 1 if following >= count else 0
                 following += 1
-        rest_and_advance(lanes, row)
+        advance_all(lanes, row)
         row = 1 - row

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import ctypes
 import ctypes.util
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cache
 from threading import Lock
@@ -28,6 +29,8 @@ class Code:
     lanes: int
     lines: list[str] = field(default_factory=list)
     declared: set[str] = field(default_factory=set)
+    defined: dict[str, str] = field(default_factory=dict)  # functions that this one calls
+    circular: dict[str, tuple[str, str]] = field(default_factory=dict)  # sine and cosine of a number
     prefix: str = "v"  # of names, where two write the same function
     _count: int = 0
 
@@ -57,6 +60,28 @@ class Code:
         one = f"0x{bits:016X}"
         return one if self.lanes == 1 else f"<{', '.join(['double ' + one] * self.lanes)}>"
 
+    @property
+    def whole(self) -> str:
+        """The type of the bits of a number, as an integer."""
+        return "i64" if self.lanes == 1 else f"<{self.lanes} x i64>"
+
+    def integer(self, value: int) -> str:
+        """A constant integer, the same in all lanes."""
+        return str(value) if self.lanes == 1 else f"<{', '.join([f'i64 {value}'] * self.lanes)}>"
+
+    def bits(self, a: str) -> str:
+        """The bits of a number."""
+        return self.new(f"bitcast {self.kind} {a} to {self.whole}")
+
+    def of_bits(self, a: str) -> str:
+        """The number with these bits."""
+        return self.new(f"bitcast {self.whole} {a} to {self.kind}")
+
+    def on_bits(self, what: str, a: str, b: int | str) -> str:
+        """An operation of LLVM (and, shl …) on integers, the second of which may be a constant."""
+        other = self.integer(b) if isinstance(b, int) else b
+        return self.new(f"{what} {self.whole} {a}, {other}")
+
     def add(self, a: str, b: str) -> str:
         """a + b."""
         return self.new(f"fadd {self.kind} {a}, {b}")
@@ -83,9 +108,27 @@ class Code:
             return self.add(self.multiply(a, b), c)
         return self._intrinsic("fma", a, b, c)
 
+    def horner(self, coefficients: Sequence[float], x: str) -> str:
+        """Σ cₖ xᵏ."""
+        found = self.number(coefficients[-1])
+        for each in reversed(coefficients[:-1]):
+            found = self.multiply_add(found, x, self.number(each))
+        return found
+
+    def spread(self, number: str) -> str:
+        """One double in all lanes."""
+        if self.lanes == 1:
+            return number
+        one = self.new(f"insertelement {self.kind} poison, double {number}, i32 0")
+        return self.new(f"shufflevector {self.kind} {one}, {self.kind} poison, <{self.lanes} x i32> zeroinitializer")
+
     def root(self, a: str) -> str:
         """√a."""
         return self._intrinsic("sqrt", a)
+
+    def size(self, a: str) -> str:
+        """|a|."""
+        return self._intrinsic("fabs", a)
 
     def _intrinsic(self, name: str, *arguments: str) -> str:
         suffix = "f64" if self.lanes == 1 else f"v{self.lanes}f64"
@@ -116,6 +159,16 @@ class Code:
         """a where the condition holds, else b."""
         truth = "i1" if self.lanes == 1 else f"<{self.lanes} x i1>"
         return self.new(f"select {truth} {condition}, {self.kind} {a}, {self.kind} {b}")
+
+    def larger(self, a: str, b: str) -> str:
+        """The larger of two numbers, a where b is none."""
+        truth = self.new(f"fcmp ogt {self.kind} {b}, {a}")
+        return self.select(truth, b, a)
+
+    def smaller(self, a: str, b: str) -> str:
+        """The smaller of two numbers, a where b is none."""
+        truth = self.new(f"fcmp olt {self.kind} {b}, {a}")
+        return self.select(truth, b, a)
 
     def at(self, base: str, place: str | int) -> str:
         """The address of number `place` behind an address."""
@@ -161,21 +214,33 @@ def host() -> Host:
     return Host(llvm.get_host_cpu_name(), features.flatten(), bool(features.get("fma")) or is_arm, wide)
 
 
+ARGUMENTS = "ptr %out, ptr %given, ptr noalias %work, ptr %program"  # of all functions that kernels call
+
+
 @dataclass(frozen=True)
 class MachineCode:
-    """A compiled function; its address is valid as long as this object lives."""
+    """Compiled functions; their addresses are valid as long as this object lives."""
 
     engine: Any
-    address: int
+    addresses: Mapping[str, int]
+
+    @property
+    def address(self) -> int:
+        """That of the first one."""
+        return next(iter(self.addresses.values()))
 
 
-def compiled(name: str, arguments: str, code: Code, effort: int) -> MachineCode:
-    """Machine code of a function `void name(arguments)`."""
-    lines = [*sorted(code.declared), f"define void @{name}({arguments}) #0 {{", *code.lines, "}"]
+def compiled(functions: Mapping[str, Code], effort: int) -> MachineCode:
+    """Machine code of functions `void name(out, given, work, program)`."""
+    declared = set[str]().union(*(code.declared for code in functions.values()))
+    defined = {name: text for code in functions.values() for name, text in code.defined.items()}
+    lines = [*sorted(declared), *defined.values()]
+    for name, code in functions.items():
+        lines += [f"define void @{name}({ARGUMENTS}) #0 {{", *code.lines, "}"]
     text = "\n".join([*lines, 'attributes #0 = { nounwind "no-builtins" }', ""])
     with _LOCK:
         module = llvm.parse_assembly(text)
         module.triple = llvm.get_default_triple()
         engine = llvm.create_mcjit_compiler(module, host().machine(effort))
         engine.finalize_object()
-    return MachineCode(engine, engine.get_function_address(name))
+    return MachineCode(engine, {name: engine.get_function_address(name) for name in functions})

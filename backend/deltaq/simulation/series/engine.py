@@ -6,6 +6,8 @@ from ...model.model import Model
 from .code import QUICK, THOROUGH
 from .generated import Jet, jet_of
 
+LANES = 8  # motions side by side: one vector of the widest processors, several of others, which wait less then
+
 
 def jet_of_model(model: Model, *, is_long: bool, lanes: int = 1) -> Jet:
     """The code for a model's series; made once for each effort, and the thorough one serves all once it is there."""

@@ -13,11 +13,14 @@ from typing import Protocol
 
 from ...model import recurrences as r
 from ...model.recurrences import Recurrences, Series, Term
+from ..kernels.motion import SMALLEST_PIVOT
 from ..kernels.taylor import MOST_ORDERS
 from .code import THOROUGH, Code, MachineCode, compiled, host
 from .operations import COMPARISONS, Operands, first, kept, later
+from .shape import Shape
+from .stepping import advance, measure
 
-TOGETHER = 8  # sums in one loop
+TOGETHER = 5  # sums in one loop, whose parts have to stay in registers
 
 
 class Sums(Protocol):
@@ -65,7 +68,7 @@ class OfOperations:
                     code.store(value, "%work", code.new(f"add i64 {row}, {place}"))
 
     def write(self, code: Code, order: str, begin: str) -> dict[Term, str]:
-        vector = Code(self.width, code.lines, code.declared, "w")
+        vector = Code(self.width, code.lines, code.declared, prefix="w")
         bases = [[code.at("%work", self._base(g, side)) for side in (0, 1)] for g in range(self.groups)]
         found = _loop(vector, order, begin, bases)
         return {
@@ -95,12 +98,26 @@ class OfMotions:
 
     def write(self, code: Code, order: str, begin: str) -> dict[Term, str]:
         found: dict[Term, str] = {}
-        for start in range(0, len(self.terms), TOGETHER):
-            some = self.terms[start : start + TOGETHER]
-            bases = [[code.at("%work", self._series.index(s) * MOST_ORDERS) for s in term] for term in some]
-            found |= dict(zip(some, _loop(code, order, begin, bases, f"{start}"), strict=True))
-            begin = f"summed{start}"
+        places = {series: code.at("%work", number * MOST_ORDERS) for number, series in enumerate(self._series)}
+        for number, some in enumerate(_grouped(self.terms, TOGETHER)):
+            bases = [[places[series] for series in term] for term in some]
+            found |= dict(zip(some, _loop(code, order, begin, bases, f"{number}"), strict=True))
+            begin = f"summed{number}"
         return found
+
+
+def _grouped(terms: Sequence[Term], most: int) -> list[list[Term]]:
+    """Groups of so many sums, of which those are together that share series: what is read serves several then."""
+    left, groups = list(terms), list[list[Term]]()
+    while left:
+        group = [left.pop(0)]
+        while left and len(group) < most:
+            known = {(side, series) for term in group for side, series in enumerate(term)}
+            best = max(left, key=lambda term: sum((side, series) in known for side, series in enumerate(term)))
+            left.remove(best)
+            group.append(best)
+        groups.append(group)
+    return groups
 
 
 def _loop(code: Code, order: str, begin: str, bases: Sequence[Sequence[str]], name: str = "") -> list[str]:
@@ -127,33 +144,6 @@ def _loop(code: Code, order: str, begin: str, bases: Sequence[Sequence[str]], na
 
 
 @dataclass(frozen=True)
-class Shape:
-    """What a jet reads and writes, in numbers of `lanes` doubles.
-
-    Given are the unit of time H, the state, t and the constants. A row of coefficients in that unit has the state, the
-    arguments of conditions, and (in row 0 alone) the pivots with the diagonal entries that they are left of.
-    """
-
-    recurrences: Recurrences
-    lanes: int = 1
-
-    @property
-    def width(self) -> int:
-        """Of a state."""
-        return 2 * self.recurrences.degrees + (self.recurrences.power is not None)
-
-    @property
-    def components(self) -> int:
-        """Of a row of coefficients."""
-        return self.width + len(self.recurrences.conditions) + 2 * len(self.recurrences.pivots)
-
-    @property
-    def first_constant(self) -> int:
-        """Where the constants begin in what is given."""
-        return self.width + 2
-
-
-@dataclass(frozen=True)
 class Jet:
     """Code that finds the Taylor coefficients of a motion: void jet(out, given, work, program).
 
@@ -174,9 +164,10 @@ def jet_of(recurrences: Recurrences, lanes: int = 1, effort: int = THOROUGH) -> 
     sums: Sums = OfOperations(terms, 8 if host().width >= 8 else 4) if lanes == 1 else OfMotions(terms, lanes)
     writer = _Writer(shape, sums, Code(lanes))
     writer.write()
-    return Jet(
-        compiled("jet", "ptr %out, ptr %given, ptr noalias %work, ptr %program", writer.code, effort), shape, sums.size
-    )
+    functions = {"jet": writer.code}
+    if lanes > 1:
+        functions |= {"advance": advance(shape), "measure": measure(shape, SMALLEST_PIVOT)}
+    return Jet(compiled(functions, effort), shape, sums.size)
 
 
 @dataclass(frozen=True)
@@ -260,7 +251,7 @@ class _Writer:
         sums = self.sums.write(code, "%k", "order")
         code.do("br label %chain")
         code.label("chain")
-        order = self._spread(code.new("sitofp i64 %k to double"))
+        order = code.spread(code.new("sitofp i64 %k to double"))
         inverse = code.divide(code.number(1.0), order)
         values = list(inputs)
         for place, value in enumerate(inputs):
@@ -284,7 +275,7 @@ class _Writer:
         """What an order leaves: coefficients of the state and of conditions' arguments; and the next order, if any."""
         code = self.code
         code.do("%kn = add i64 %k, 1")
-        next_order = self._spread(code.new("sitofp i64 %kn to double"))
+        next_order = code.spread(code.new("sitofp i64 %kn to double"))
         following = self._integrated(state, values, unit, next_order)
         self._out_conditions("%k", values)
         self._out_state("%kn", following)
@@ -301,14 +292,6 @@ class _Writer:
             self.sums.keep(self.code, (place, False), "%k", value)
         if (place, True) in needed:
             self.sums.keep(self.code, (place, True), "%k", self.code.multiply(order, value))
-
-    def _spread(self, number: str) -> str:
-        """One double in all lanes."""
-        code = self.code
-        if code.lanes == 1:
-            return number
-        one = code.new(f"insertelement {code.kind} poison, double {number}, i32 0")
-        return code.new(f"shufflevector {code.kind} {one}, {code.kind} poison, <{code.lanes} x i32> zeroinitializer")
 
     def _integrated(self, state: list[str], values: list[str], unit: str, next_order: str) -> list[str]:
         """The next coefficients of the state: those of its derivative times H / (k + 1)."""

@@ -13,6 +13,7 @@ from types import MappingProxyType
 
 from ...model import recurrences as r
 from ...model import tape as t
+from .circular import sine_and_cosine
 from .code import Code
 
 COMPARISONS: Mapping[int, str] = MappingProxyType(
@@ -59,7 +60,11 @@ def first(code: Code, kind: int, x: Operands, function: str) -> str:
         r.ANGLE: lambda: code.function("atan2", x.a0, x.b0),
         r.CHOICE: lambda: code.select(x.a, x.b0, x.c0),
     }
-    return simple[kind]() if kind in simple else code.function(function, x.a0)
+    if kind in simple:
+        return simple[kind]()
+    if function in ("sin", "cos"):
+        return sine_and_cosine(code, x.a0)[function == "cos"]
+    return code.function(function, x.a0)
 
 
 def kept(code: Code, kind: int, x: Operands) -> str:
