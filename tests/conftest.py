@@ -11,14 +11,27 @@ from pathlib import Path
 
 import pytest
 from tests.bundling import bundle_of, made
-from tests.order import ByFile, durations, in_order, left_out, needs_kernels
+from tests.order import (
+    BUDGET,
+    ByFile,
+    Record,
+    file_of,
+    in_order,
+    in_turn,
+    left_out,
+    needs_kernels,
+    place_of_the_commit,
+    recorded,
+)
 from tests.serving import PATIENT, shared
 from xdist.remote import Producer
 from xdist.scheduler import LoadFileScheduling
+from xdist.workermanage import WorkerController
 
 from deltaq.api.workers.kernels import are_compiled
 
 ROOT = Path(__file__).parents[1]
+OMITTED = pytest.StashKey[dict[str, int]]()  # how many tests and cases a run leaves out
 
 
 @pytest.fixture(scope="session")
@@ -74,7 +87,7 @@ def pytest_xdist_make_scheduler(config: pytest.Config, log: Producer) -> LoadFil
 
 
 def pytest_addoption(parser: pytest.Parser) -> None:
-    parser.addoption("--every-case", action="store_true", help="also the cases that tests marked one_in(n) leave out")
+    parser.addoption("--every-case", action="store_true", help="also cases and long tests that others stand for")
 
 
 @pytest.hookimpl(wrapper=True)
@@ -92,17 +105,58 @@ def pytest_collection() -> Generator[None, object, object]:
 
 
 def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
-    """Cases and files in the order of `tests/order.py`; those that need the kernels wait for them."""
-    if not config.getoption("--every-case") and (left := left_out(items)):
-        config.hook.pytest_deselected(items=left)
-        omitted = set(left)
+    """Of all tests those whose turn it is, cases and files in the order of `tests/order.py`; those that need the
+    kernels wait for them.
+    """
+    record, tests = recorded(), {item: item.nodeid.partition("[")[0] for item in items}
+    if not config.getoption("--every-case"):
+        waiting = other_turns(tests, record) if takes_turns(config) else set()
+        omitted = {*left_out(items), *(item for item in items if tests[item] in waiting)}
+        config.hook.pytest_deselected(items=list(omitted))
         items[:] = [item for item in items if item not in omitted]
-    of = {item: item.nodeid.partition("::")[0] for item in items}
-    place = {file: index for index, file in enumerate(in_order(set(of.values()), durations()))}
-    items.sort(key=lambda item: place[of[item]])
+        told = config.workeroutput if hasattr(config, "workeroutput") else config.stash.setdefault(OMITTED, {})
+        told |= {"cases": len(omitted), "tests": len(waiting)}
+    files = {file_of(tests[item]) for item in items}
+    seconds = record.by_file({tests[item] for item in items})
+    place = {file: index for index, file in enumerate(in_order(files, seconds))}
+    items.sort(key=lambda item: place[file_of(tests[item])])
     for item in items:
-        if needs_kernels(of[item]) and isinstance(item, pytest.Function):
+        if needs_kernels(file_of(tests[item])) and isinstance(item, pytest.Function):
             item.fixturenames.insert(0, "kernels")
+
+
+def other_turns(tests: dict[pytest.Item, str], record: Record) -> set[str]:
+    """The long tests whose turn comes with other commits."""
+    always = {test for item, test in tests.items() if item.get_closest_marker("always")}
+    long = {test: record.long[test] for test in {*tests.values()} - always if test in record.long}
+    return long.keys() - in_turn(long, BUDGET, place_of_the_commit(ROOT))
+
+
+def takes_turns(config: pytest.Config) -> bool:
+    """Whether all tests are asked for: what is named, by a file or a word, runs."""
+    if hasattr(config, "workerinput"):
+        return bool(config.workerinput["takes_turns"])
+    named = config.args_source is not pytest.Config.ArgsSource.TESTPATHS
+    return not (named or config.option.keyword or config.option.markexpr)
+
+
+@pytest.hookimpl(optionalhook=True)
+def pytest_configure_node(node: WorkerController) -> None:
+    node.workerinput["takes_turns"] = takes_turns(node.config)
+
+
+@pytest.hookimpl(optionalhook=True)
+def pytest_testnodedown(node: WorkerController, error: object) -> None:
+    node.config.stash.setdefault(OMITTED, {}).update(getattr(node, "workeroutput", None) or {})
+
+
+def pytest_terminal_summary(terminalreporter: pytest.TerminalReporter, config: pytest.Config) -> None:
+    omitted = config.stash.get(OMITTED, {})
+    if omitted.get("cases"):
+        terminalreporter.write_line(
+            f"LEFT OUT: {omitted['cases']} cases, with those of {omitted['tests']} long tests whose turn comes with "
+            "other commits; --every-case takes all"
+        )
 
 
 @pytest.fixture(scope="session")

@@ -3,12 +3,26 @@
 from __future__ import annotations
 
 import random
+import subprocess
 from dataclasses import dataclass
 from pathlib import Path
 from xml.etree import ElementTree as ET
 
 import pytest
-from tests.order import SHORT, durations, in_order, left_out, measured, needs_kernels, reads_shared_derivations
+from tests.order import (
+    LONG,
+    NAMED,
+    Record,
+    all_tests,
+    in_order,
+    in_turn,
+    left_out,
+    measured,
+    needs_kernels,
+    place_of_the_commit,
+    reads_shared_derivations,
+    recorded,
+)
 
 
 @pytest.mark.parametrize("seed", range(20))
@@ -27,20 +41,56 @@ def test_kernels_are_begun_at_once_and_the_longest_come_first(seed: int) -> None
         assert lengths == sorted(lengths, reverse=True)
 
 
-def test_a_report_is_summed_by_file(tmp_path: Path) -> None:
+def test_a_report_is_summed_by_long_tests_and_the_rest_of_a_file(tmp_path: Path) -> None:
     report = ET.Element("testsuite")
-    for file, time in (("tests.lab.test_a", SHORT), ("tests.test_b", 0.6 * SHORT), ("tests.lab.test_a", 20.0)):
-        ET.SubElement(report, "testcase", classname=file, time=str(time))
+    for file, name, time in (
+        ("tests.lab.test_a", "test_long[1]", 0.5 * LONG),
+        ("tests.lab.test_a", "test_long[2]", LONG),
+        ("tests.lab.test_a", "test_b", 0.9 * LONG),
+        ("tests.lab.test_a", "test_was_long", 0.5 * LONG),
+        ("tests.test_short", "test_c", 0.9 * NAMED),
+    ):
+        ET.SubElement(report, "testcase", classname=file, name=name, time=str(time))
     ET.ElementTree(report).write(tmp_path / "report.xml")
-    assert measured(tmp_path / "report.xml") == {"tests/lab/test_a.py": 23}
+    files = "tests/lab/test_a.py", "tests/test_d.py"
+    before = Record({f"{files[0]}::test_was_long": 9.0, f"{files[1]}::test_waits": 7.0, "gone.py::test_e": 8.0}, {})
+    found = measured(tmp_path / "report.xml", before, {f"{files[1]}::test_waits", f"{files[0]}::test_was_long"})
+    assert found.long == {f"{files[1]}::test_waits": 7.0, f"{files[0]}::test_long": 1.5 * LONG}
+    assert found.others == pytest.approx({files[0]: 1.4 * LONG})
 
 
-def test_what_is_known_of_the_files_has_not_grown_old(root: Path) -> None:
+def test_what_is_known_of_the_tests_has_not_grown_old(root: Path) -> None:
     """A few may have got another name; an order made from the names of others would be none."""
-    known = durations()
-    there = [file for file in known if (root / file).is_file()]
-    assert len(there) >= 0.8 * len(known) > 0
-    assert list(known.values()) == sorted(known.values(), reverse=True)
+    known, there = recorded(), all_tests(root)
+    assert len(there & set(known.long)) >= 0.8 * len(known.long) > 0
+    assert len([file for file in known.others if (root / file).is_file()]) >= 0.8 * len(known.others) > 0
+    for seconds in (known.long, known.others):
+        assert list(seconds.values()) == sorted(seconds.values(), reverse=True)
+
+
+@pytest.mark.parametrize("seed", range(10))
+def test_each_long_test_has_its_turn_as_often_as_any_other_and_a_run_takes_its_time(seed: int) -> None:
+    draw = random.Random(seed)
+    long = {f"tests/test_a.py::test_{n}": draw.uniform(LONG, 40.0) for n in range(draw.randint(1, 60))}
+    whole = sum(long.values())
+    seconds = draw.uniform(0.1, 1.0) * whole
+    runs = [in_turn(long, seconds, n / 1000) for n in range(1000)]
+    for test in long:
+        assert sum(test in taken for taken in runs) == pytest.approx(1000 * seconds / whole, abs=2)
+    assert all(abs(sum(long[test] for test in taken) - seconds) <= max(long.values()) for taken in runs)
+    assert in_turn(long, 1.01 * whole, draw.random()) == set(long)
+
+
+def test_the_turn_is_the_commits(tmp_path: Path) -> None:
+    assert place_of_the_commit(tmp_path) == 0.0
+    git = ["git", "-c", "user.name=a", "-c", "user.email=a@b"]
+    places = []
+    subprocess.run([*git, "init", "--quiet"], cwd=tmp_path, check=True)
+    for message in "ab":
+        subprocess.run([*git, "commit", "--quiet", "--allow-empty", "-m", message], cwd=tmp_path, check=True)
+        places += [place_of_the_commit(tmp_path), place_of_the_commit(tmp_path)]
+    assert places[0] == places[1] != places[2] == places[3]
+    assert all(0.0 < place < 1.0 for place in places)
 
 
 @pytest.mark.parametrize(

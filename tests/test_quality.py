@@ -13,6 +13,7 @@ LONGEST_FILE = 500  # a concern that a reader keeps in the head
 LONGEST_FUNCTION = 40  # but for the stepping loops of kernels, which keep all their state in one place
 
 
+@pytest.mark.always
 @pytest.mark.parametrize(
     "command",
     [

@@ -252,6 +252,7 @@ def test_a_wrong_rule_is_caught(monkeypatch: pytest.MonkeyPatch) -> None:
     assert "virtual-displacement:bob" not in wrong
 
 
+@pytest.mark.always
 @pytest.mark.parametrize("identifier", scene_ids())
 def test_every_step_of_every_scene_is_verified(identifier: str) -> None:
     _, derivation = derived(identifier)

@@ -15,6 +15,7 @@ def frontend() -> Path:
     return frontend_with_tools()
 
 
+@pytest.mark.always
 def test_types(frontend: Path) -> None:
     done = run("node", "node_modules/typescript/bin/tsc", "--noEmit", "--project", ".", cwd=frontend)
     assert done.returncode == 0, done.stdout
@@ -25,16 +26,19 @@ def test_types_of_the_api_are_current() -> None:
     assert FILE.read_text(encoding="utf-8") == types(), "not current: .venv/bin/python -m tests.frontend.contract"
 
 
+@pytest.mark.always
 def test_linter_finds_nothing(frontend: Path) -> None:
     done = run("node", "node_modules/eslint/bin/eslint.js", ".", "--max-warnings", "0", cwd=frontend)
     assert done.returncode == 0, done.stdout + done.stderr
 
 
+@pytest.mark.always
 def test_formatter_changes_nothing(frontend: Path) -> None:
     done = run("node", "node_modules/prettier/bin/prettier.cjs", "--check", "**/*.{js,mjs}", cwd=frontend)
     assert done.returncode == 0, done.stdout + done.stderr
 
 
+@pytest.mark.always
 def test_units(root: Path) -> None:
     files = sorted(str(path) for path in (root / "tests" / "frontend").glob("*.test.js"))
     assert len(files) >= 10
