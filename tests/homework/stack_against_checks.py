@@ -24,7 +24,7 @@ import deltaq
 from deltaq.homework.service import check_request
 from deltaq.homework.stack.answer_tests import value
 from deltaq.homework.stack.maxima import RENAMED, maxima
-from deltaq.homework.stack.question import left_out, quiz
+from deltaq.homework.stack.question import Asked, left_out, quiz
 from deltaq.homework.task import Task
 from deltaq.homework.workbook import Workbook, workbook_of
 
@@ -201,7 +201,7 @@ def compared(
 ) -> Iterator[Compared]:
     """Forms of the tasks of a scene (all if none is named), graded twice."""
     book = workbook_of({"scene": scene})
-    unasked = left_out(book.tasks)
+    unasked = left_out(Asked(book, task) for task in book.tasks)
     asked = [task for task in tasks or book.tasks if task.id not in unasked]
     found = [list(forms(book, task, right_ones, wrong_ones)) for task in asked]
     typed = [[form.stack for form in each] for each in found]

@@ -5,6 +5,7 @@ from __future__ import annotations
 import pytest
 from tests.derivation.scenes import constrained
 from tests.homework.test_impacts import ROD
+from tests.homework.test_impacts_with_constraints import WALLS
 from tests.homework.wrong_answers import SHORT, assert_hints_are_whole, assert_mistakes_are_found
 
 from deltaq.homework.faulty_solution import misconceptions
@@ -24,7 +25,7 @@ def test_wrong_answers_are_wrong_and_their_mistakes_found(scene: str) -> None:
 def test_every_misconception_occurs() -> None:
     seen = {
         candidate.solution.id
-        for scene in (*SCENES, ROD, *(write_scene(scene) for scene in constrained() if scene.id == "sleigh"))
+        for scene in (*SCENES, ROD, WALLS, *(write_scene(scene) for scene in constrained() if scene.id == "sleigh"))
         for workbook in [workbook_of({"scene": scene})]
         for task in workbook.tasks
         for candidate in workbook.candidates(task)

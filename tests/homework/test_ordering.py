@@ -25,7 +25,7 @@ from deltaq.homework.ordering.blocks import Blocks, Road, blocks_of, shuffled
 from deltaq.homework.ordering.judge import Ordering
 from deltaq.homework.quantities import quantity_of
 from deltaq.homework.service import check_request, lines_request, reading_request, solution_request, tasks_request
-from deltaq.homework.stack.question import left_out
+from deltaq.homework.stack.question import Asked, left_out
 from deltaq.homework.statement import task_document
 from deltaq.homework.task import Task
 from deltaq.homework.verdict import Verdict
@@ -392,4 +392,6 @@ def test_orders_are_marked_in_workings_and_tables() -> None:
 
 
 def test_stack_leaves_orders_out_by_name() -> None:
-    assert {"order-lagrangian", "order-equation:phi"} <= set(left_out(book("pendulum").tasks))
+    workbook = book("pendulum")
+    told = left_out(Asked(workbook, task) for task in workbook.tasks)
+    assert {"order-lagrangian", "order-equation:phi"} <= set(told)

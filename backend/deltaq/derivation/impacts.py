@@ -131,6 +131,21 @@ def effective_mass(system: System, event: Event) -> sp.Expr:
     return 1 / _share(system, event, mobility)
 
 
+def free_mass(system: System, event: Event) -> sp.Expr:
+    """The same as if no constraint answered: 1/(∂g/∂q M⁻¹ ∂g/∂qᵀ) with the whole M⁻¹. Raises ValueError for none."""
+    inverse, row = inverse_of(system, mass_matrix(system)), _row(system, event)
+    if inverse is None:
+        raise ValueError("the mass matrix has no inverse")
+    return 1 / system.display((row.T * inverse * row)[0])
+
+
+def answers(system: System, event: Event) -> dict[str, sp.Expr]:
+    """Λ_c of each constraint for each unit of Λ, −R ∂g/∂q; none of a contact without an impact."""
+    mobility = _mobility(system)
+    found = () if mobility is None else -mobility.answers * _row(system, event)
+    return {each.source: share for each, share in zip(system.conditions, found, strict=False)}
+
+
 @cached_method
 def _mobility(system: System) -> _Mobility | None:
     """P and R; M⁻¹ and nothing without constraints. None where they are too long, or constraints are dependent."""

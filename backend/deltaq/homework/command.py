@@ -14,7 +14,7 @@ from .grading import Sheet, grade, plan_of, read_class
 from .handins import LARGEST, HandIns, handed_in
 from .platforms import canvas_csv, moodle_csv
 from .results import Graded, results_csv, summary, totals
-from .stack.question import asked_in, left_out, quiz, sheet_quiz
+from .stack.question import Asked, asked_in, left_out, quiz, sheet_quiz
 from .workbook import workbook_of
 
 WIDTH = 30
@@ -79,7 +79,7 @@ def _with_progress(graded: Iterable[T], total: int, screen: TextIO) -> Iterator[
 def stack_sheet(sheet: AssignmentDocument, output: Path, language: str) -> tuple[int, list[str]]:
     """Write the questions of an assignment for STACK as one file; how many, and the names of those it cannot judge."""
     output.write_text(sheet_quiz(sheet, language), encoding="utf-8")
-    told = left_out(one.task for one in asked_in(sheet))
+    told = left_out(asked_in(sheet))
     return len(sheet.tasks) - len(told), told
 
 
@@ -91,5 +91,5 @@ def stack_file(scene: str, tasks: Sequence[str], output: Path, language: str) ->
     workbook = workbook_of({"scene": scene})
     wanted = [workbook.task(task) for task in tasks] or workbook.tasks
     output.write_text(quiz(workbook, wanted, language), encoding="utf-8")
-    told = left_out(wanted)
+    told = left_out(Asked(workbook, task) for task in wanted)
     return len(wanted) - len(told), told

@@ -8,7 +8,7 @@ from collections.abc import Iterator
 import sympy as sp
 
 from ..derivation.compiled import compiled
-from .equality import Parts
+from .equality import Parts, kept_by_constraints, where_kept
 from .sampling import Sampler, echelon
 from .solution import Solution
 from .task import Task
@@ -23,7 +23,8 @@ def counterexample(task: Task, given: Parts, right: Parts, solution: Solution) -
 
     `given` and `right` are the components or residuals of the two; the values are in the units of the scene.
     """
-    for state in _states(solution):
+    kept = bool(solution.conditions) and task.quantity.equality in (kept_by_constraints, where_kept)
+    for state in _kept(solution) if kept else _states(solution):
         reference, gap = _reference(task, given, right, state, solution)
         for of, yours, value in _values(task, given, right, solution, state):
             true = value + gap
@@ -61,6 +62,12 @@ def _states(solution: Solution) -> Iterator[dict[str, float]]:
         state = {name: round(shift + 0.1 * index, 2) for index, name in enumerate(moving)}
         starts = {c.name: round(c.value + shift, 2) for c in solution.scene.coordinates}
         yield values | state | starts
+
+
+def _kept(solution: Solution) -> Iterator[dict[str, float]]:
+    """States that keep the constraints: elsewhere neither answer says anything."""
+    for state in kept_by_constraints.states_of(solution):
+        yield {name: float(f"{value:.6g}") for name, value in state.items()}
 
 
 def _values(

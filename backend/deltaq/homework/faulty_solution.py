@@ -11,6 +11,7 @@ from typing import ClassVar, Self
 
 import sympy as sp
 
+from ..derivation.system import System
 from ..language.memory import cached_method
 from ..mechanics.bodies import Body
 from ..mechanics.contributions import Contribution
@@ -72,6 +73,15 @@ class FaultySolution(Solution):
     def is_conservative(self, load: str) -> bool:
         """Which loads have a potential: those of the true solution, since the forces are given."""
         return self.true.is_conservative(load)
+
+    @cached_property
+    def model(self) -> System:
+        """That of the true solution: what is looked up in it is the same."""
+        return self.true.model if self.scene is self.true.scene else System(self.scene)
+
+    def rest_reaction(self, source: str) -> sp.Expr:
+        """That of the true position of rest."""
+        return self.true.rest_reaction(source)
 
     @property
     def rest(self) -> dict[sp.Symbol, sp.Expr] | None:

@@ -129,7 +129,9 @@ def step_title(rule: str, about: Mapping[str, str], scene: Scene, language: str)
 def _title(task: str, scene: Scene, language: str) -> CatalogText:
     """What a task asks for, as its title says it."""
     kind, _, subject = task.partition(":")
-    subjects = {"subject": label(subject, scene, language), "number": subject} if subject else {}
+    first, _, last = subject.rpartition(":")
+    event, named = (label(name, scene, language) for name in (first or last, last))
+    subjects = {"subject": named, "number": subject, "event": event} if subject else {}
     return text(language, f"homework.tasks.{kind}.title", **subjects)
 
 

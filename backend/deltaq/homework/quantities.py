@@ -19,6 +19,7 @@ from .equality import (
     stated,
     symmetry,
     up_to_constant,
+    where_kept,
 )
 from .model_questions import positions, stability, steady
 from .ordering import judge as ordering
@@ -27,6 +28,9 @@ from .quantity import Quantity, Subjects
 from .solution import Solution
 from .subjects import (
     bodies,
+    carrying,
+    contact_of,
+    coordinate_of,
     coordinates,
     coupled,
     loaded,
@@ -59,7 +63,7 @@ def _conserved_value(solution: Solution, number: str) -> Parts:
     return (solution.conserved(_true(solution).conserved_of[int(number) - 1]),)
 
 
-EXACT, CONSTANT, GAUGE, ONE, SET, NUMBERS, MULTIPLE, MADE_OF, STATED, KEPT = (
+EXACT, CONSTANT, GAUGE, ONE, SET, NUMBERS, MULTIPLE, MADE_OF, STATED, KEPT, WHERE_KEPT = (
     cast("Equality", module)
     for module in (
         expression,
@@ -72,6 +76,7 @@ EXACT, CONSTANT, GAUGE, ONE, SET, NUMBERS, MULTIPLE, MADE_OF, STATED, KEPT = (
         symmetry,
         stated,
         kept_by_constraints,
+        where_kept,
     )
 )
 
@@ -218,9 +223,20 @@ QUANTITIES: tuple[Quantity, ...] = (
         steps=("multiplier:{subject}", "work-of-reaction:{subject}"),
     ),
     Quantity(
-        "impulse",
+        "rest-reaction",
         "expression",
         EXACT,
+        lambda solution, name: (solution.rest_reaction(name),),
+        carrying,
+        "model",
+        ("lambda", "λ", "S", "N", "Z"),
+        ("equation", "equilibria"),
+        steps=("equilibrium:1",),
+    ),
+    Quantity(
+        "impulse",
+        "expression",
+        WHERE_KEPT,
         lambda solution, contact: (solution.impact_impulse(contact),),
         lambda solution: solution.bounces,
         "contact",
@@ -232,8 +248,8 @@ QUANTITIES: tuple[Quantity, ...] = (
     Quantity(
         "momentum-behind",
         "expression",
-        EXACT,
-        lambda solution, q: (solution.momentum_behind(solution.bounces[0], q),),
+        WHERE_KEPT,
+        lambda solution, name: (solution.momentum_behind(contact_of(_true(solution), name), coordinate_of(name)),),
         struck,
         "contact",
         ("p",),
@@ -244,7 +260,7 @@ QUANTITIES: tuple[Quantity, ...] = (
     Quantity(
         "impact-loss",
         "expression",
-        EXACT,
+        WHERE_KEPT,
         lambda solution, contact: (solution.impact_loss(contact),),
         lambda solution: solution.bounces,
         "contact",

@@ -11,12 +11,23 @@ import sympy as sp
 from ..derivation.calculus import V
 from ..derivation.conservation import cyclic, jacobi_energy, jacobi_energy_rate
 from ..derivation.generator import Symmetry
-from ..derivation.impacts import bouncing, effective_mass, gap_rate, impact, moving_term, restitution, slopes
+from ..derivation.impacts import (
+    answers,
+    bouncing,
+    effective_mass,
+    free_mass,
+    gap_rate,
+    impact,
+    moving_term,
+    restitution,
+    slopes,
+)
 from ..derivation.linearization import linearizations
 from ..derivation.optional import symmetries_of
 from ..derivation.system import System
 from ..language.canonical import display
 from ..language.memory import cached_method
+from ..mechanics.conditions import Condition
 from ..mechanics.event import Event
 
 
@@ -128,9 +139,7 @@ class Solution(System):
 
     @cached_property
     def bounces(self) -> tuple[str, ...]:
-        """The contacts whose impacts can be asked for: not shared by constraints, and short."""
-        if self.conditions:
-            return ()
+        """The contacts whose impacts can be asked for: those that are short."""
         return tuple(each.name for each in bouncing(self.model) if impact(self.model, each) is not None)
 
     def _contact(self, name: str) -> Event:
@@ -160,18 +169,48 @@ class Solution(System):
         """1/(∂g/∂q M⁻¹ ∂g/∂qᵀ), what the contact has to stop."""
         return effective_mass(self.model, self._contact(contact))
 
+    def free_mass(self, contact: str) -> sp.Expr:
+        """What it would have to stop if no constraint answered."""
+        return free_mass(self.model, self._contact(contact))
+
+    def constraint_share(self, contact: str, condition: Condition) -> sp.Expr:
+        """Λ_c/Λ: with how much of the impulse a constraint answers."""
+        return answers(self.model, self._contact(contact)).get(condition.source, self.zero)
+
+    def struck_by(self, contact: str) -> list[str]:
+        """The coordinates whose momenta jump."""
+        found = impact(self.model, self._contact(contact))
+        return [] if found is None else [q for q in self.free if found.momenta.get(q, self.zero) != 0]
+
     def impact_impulse(self, contact: str) -> sp.Expr:
         """Λ = −(1 + e) ġ/(∂g/∂q M⁻¹ ∂g/∂qᵀ)"""
         return -self.closing_factor(contact) * self.closing_rate(contact) * self.effective_mass(contact)
 
     def momentum_behind(self, contact: str, coordinate: str) -> sp.Expr:
-        """pᵢ⁺ = pᵢ + Λ ∂g/∂qᵢ"""
-        return self.momentum(coordinate) + self.impact_impulse(contact) * self.gap_slope(contact, coordinate)
+        """pᵢ⁺ = pᵢ + Λ ∂g/∂qᵢ + Σ Λ_c aᵢ"""
+        answered = (
+            self.constraint_share(contact, each) * self.coefficient(each, coordinate)
+            for each in self.conditions
+            if coordinate in self.bound(each)
+        )
+        along = self.gap_slope(contact, coordinate) + sp.Add(*answered)
+        return self.momentum(coordinate) + self.impact_impulse(contact) * along
 
     def impact_loss(self, contact: str) -> sp.Expr:
-        """E⁻ − E⁺ = −Λ ((1 − e) ġ/2 − ∂g/∂t)"""
+        """E⁻ − E⁺ = −Λ ((1 − e) ġ/2 − ∂g/∂t) + Σ Λ_c b"""
         mean = (1 - self.restitution_of(contact)) * self.closing_rate(contact) / 2
-        return -self.impact_impulse(contact) * (mean - self.contact_drift(contact))
+        return self.work_of_drift(contact) - self.impact_impulse(contact) * mean
+
+    def work_of_drift(self, contact: str) -> sp.Expr:
+        """Λ ∂g/∂t + Σ Λ_c b: what a contact and constraints that move by themselves take out of the motion."""
+        taken = (self.constraint_share(contact, each) * self.moving_term(each) for each in self.conditions)
+        return self.impact_impulse(contact) * (self.contact_drift(contact) + sp.Add(*taken))
+
+    def rest_reaction(self, source: str) -> sp.Expr:
+        """λ₀ of a constraint in the first position of rest."""
+        (condition,) = (each for each in self.conditions if each.source == source)
+        reactions = linearizations(self.model)[0].equilibrium.reactions
+        return reactions[self.multiplier(condition)]
 
     @property
     def integrals(self) -> tuple[sp.Expr, ...]:

@@ -5,10 +5,13 @@ from __future__ import annotations
 import sympy as sp
 
 from ..derivation.multipliers import multipliers
+from ..derivation.optional import motions_of
+from ..language.display import size
 from .equality import frequencies
 from .solution import Solution
 
 MOST_SYMMETRIES = 6
+LONGEST_AT_REST = 60  # parts of a multiplier in a position of rest
 
 
 def bodies(solution: Solution) -> list[str]:
@@ -78,8 +81,36 @@ def reaction_of(solution: Solution, name: str) -> sp.Expr:
 
 
 def struck(solution: Solution) -> list[str]:
-    """Each coordinate whose momentum jumps at the first contact."""
-    return [q for q in solution.free for contact in solution.bounces[:1] if solution.gap_slope(contact, q) != 0]
+    """Each coordinate whose momentum jumps: of the first contact by its name, of others as `contact:coordinate`."""
+    first = solution.bounces[:1]
+    return [
+        q if contact in first else f"{contact}:{q}" for contact in solution.bounces for q in solution.struck_by(contact)
+    ]
+
+
+def contact_of(solution: Solution, subject: str) -> str:
+    """The contact of a subject: its own name, that before a coordinate, or the first one."""
+    name = subject.partition(":")[0]
+    return name if name in solution.bounces else "".join(solution.bounces[:1])
+
+
+def coordinate_of(subject: str) -> str:
+    """The coordinate of `contact:coordinate`, or the subject itself."""
+    return subject.rpartition(":")[2]
+
+
+def carrying(solution: Solution) -> tuple[str, ...]:
+    """Each constraint whose multiplier is known in closed form where the system rests, stably if anywhere."""
+    known = motions_of(solution.model) if solution.conditions else ()
+    if not known or not known[0].equilibrium.exact or known[0].equilibrium.is_family:
+        return ()
+    return tuple(each.source for each in solution.conditions if _is_short(solution, each.source))
+
+
+def _is_short(solution: Solution, source: str) -> bool:
+    """Whether λ₀ of a constraint can be read, and there is something to be told."""
+    value = solution.rest_reaction(source)
+    return value != 0 and size(value) <= LONGEST_AT_REST
 
 
 def numbered(solution: Solution) -> list[str]:

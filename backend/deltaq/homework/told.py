@@ -17,10 +17,14 @@ from .feedback import label
 from .model_questions import positions, steady
 from .ordering.blocks import EQUATION, LAGRANGIAN
 from .ordering.telling import wrong_block
+from .subjects import contact_of
 from .task import Task
 from .workbook import Workbook
 
 Texts = dict[str, CatalogText]
+
+OF_REACTIONS = frozenset({"equation", "equations"})
+OF_STATES = frozenset({"impulse", "momentum-behind", "impact-loss", "equilibria", "stability"})
 
 
 def asked_about(task: Task, workbook: Workbook, language: str) -> Texts:
@@ -100,14 +104,15 @@ def _ordering(goal: str) -> Callable[[Task, Workbook, str], Texts]:
 
 
 def reaction_sentences(task: Task, workbook: Workbook, language: str) -> tuple[CatalogText, ...]:
-    """Which multipliers the equations of motion have, and what decides their sign."""
-    if task.quantity.kind not in ("equation", "equations"):
-        return ()
+    """Which constraints are kept; where equations of motion are asked for, by what, and what decides its sign."""
     solution, typography = workbook.solution, Typography(workbook.scene.names)
+    if task.quantity.kind not in OF_REACTIONS | OF_STATES:
+        return ()
+    kinds = ("kept", "kept") if task.quantity.kind in OF_STATES else ("holonomic", "rates")
     return tuple(
         text(
             language,
-            f"homework.reactions.{'holonomic' if each.is_holonomic else 'rates'}",
+            f"homework.reactions.{kinds[0 if each.is_holonomic else 1]}",
             condition=formula(rf"\Phi = {latex(solution.model.condition(each), typography)} = 0"),
             multiplier=formula(latex(solution.multiplier(each), typography)),
         )
@@ -126,10 +131,17 @@ def _bound(task: Task, workbook: Workbook, _language: str) -> Texts:
     }
 
 
+def _carried(task: Task, workbook: Workbook, language: str) -> Texts:
+    """The constraint, the letter of its multiplier, and the position of rest."""
+    linear = motions_of(workbook.solution.model)[0]
+    place = _place(positions.shown_values(linear.equilibrium), workbook)
+    return {**_bound(task, workbook, language), "place": place}
+
+
 def _impact(task: Task, workbook: Workbook, language: str) -> Texts:
     """The contact: what happens at it, its gap and its restitution."""
     solution, typography = workbook.solution, Typography(workbook.scene.names)
-    name = task.subject if task.subject in solution.bounces else solution.bounces[0]
+    name = contact_of(solution, task.subject)
     event = next(event for event in workbook.scene.events if event.name == name)
     return {
         "event": label(name, workbook.scene, language),
@@ -148,6 +160,7 @@ TOLD: Mapping[str, Callable[[Task, Workbook, str], Texts]] = MappingProxyType(
         "symmetry": _symmetry,
         "steady-motion": _steady,
         "constraint-force": _bound,
+        "rest-reaction": _carried,
         "impulse": _impact,
         "momentum-behind": _impact,
         "impact-loss": _impact,

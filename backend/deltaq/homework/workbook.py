@@ -12,6 +12,7 @@ from ..contract.base import SceneWithChanges
 from ..contract.check import RowQuestion
 from ..contract.reading import read
 from ..contract.task import SceneAskedAbout
+from ..derivation.multipliers import simplified
 from ..errors import InputError
 from ..language.canonical import display
 from ..language.memory import cached_method
@@ -82,8 +83,11 @@ class Workbook:
 
     @cached_method
     def shown(self, task: Task) -> Parts:
-        """The right answer in its display form."""
-        return self.short(self.right(task))
+        """The right answer in its display form; where constraints answer, with common factors cancelled."""
+        right = self.right(task)
+        if self.solution.conditions and task.quantity.form == "expression":
+            right = tuple(simplified(self.solution.model, part.expand()) for part in right)
+        return self.short(right)
 
     def short(self, parts: Parts) -> Parts:
         """Any answer in its display form."""

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 import random
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 
 import sympy as sp
 
@@ -76,6 +76,13 @@ def _coefficients(value: sp.Expr, unknown: list[sp.Symbol], solution: Solution) 
         return []
     rest = value.xreplace(dict.fromkeys(unknown, solution.zero))
     return list(zip(*(_values(part, solution) for part in (*slopes, rest)), strict=True))
+
+
+def states_of(solution: Solution) -> Iterator[dict[str, float]]:
+    """The states by names."""
+    symbols, states = _states(solution)
+    names = [symbol.name for symbol in symbols]
+    yield from (dict(zip(names, state, strict=True)) for state in states)
 
 
 def _values(value: sp.Expr, solution: Solution) -> tuple[float, ...]:

@@ -52,6 +52,9 @@ class ReactionSign(FaultySolution):
     def reaction(self, coordinate: str) -> sp.Expr:
         return -super().reaction(coordinate)
 
+    def rest_reaction(self, source: str) -> sp.Expr:
+        return -super().rest_reaction(source)
+
 
 @dataclass(frozen=True, eq=False)
 class RatesVariedAlongTheMotion(FaultySolution):

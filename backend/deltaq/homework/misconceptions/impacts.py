@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import ClassVar, Self
 
 import sympy as sp
 
+from ...mechanics.conditions import Condition
 from ..faulty_solution import FaultySolution
 from ..solution import Solution
 
@@ -113,11 +114,20 @@ class RestitutionNotSquared(ImpactMistake):
 
     id: ClassVar[str] = "restitution-not-squared"
     likely: ClassVar[int] = 1
+    of: str = "gap"  # "closing": without the work of a contact that moves; "whole": all of the kinetic energy
+
+    @classmethod
+    def variants(cls, true: Solution) -> Iterator[Self]:
+        for one in super().variants(true):
+            yield one
+            yield from (replace(one, of=of) for of in ("closing", "whole"))
 
     def impact_loss(self, contact: str) -> sp.Expr:
         e, rate = self.restitution_of(contact), self.closing_rate(contact)
-        fed = self.impact_impulse(contact) * self.contact_drift(contact)
-        return (1 - e) * self.effective_mass(contact) * rate**2 / 2 + fed
+        closing = self.effective_mass(contact) * rate**2 / 2
+        energy = self.kinetic_energy if self.of == "whole" else closing
+        fed = self.work_of_drift(contact) if self.of == "gap" else self.zero
+        return (1 - e) * energy + fed
 
 
 @dataclass(frozen=True, eq=False)
@@ -150,3 +160,46 @@ class ContactTakenAtRest(ImpactMistake):
 
     def contact_drift(self, _contact: str) -> sp.Expr:
         return self.zero
+
+
+@dataclass(frozen=True, eq=False)
+class WorkOfContactForgotten(ImpactMistake):
+    """The loss is that of the closing motion alone, although contact or constraints move by themselves.
+
+    (1 − e²) of the energy of the closing motion is what somebody sees who moves along with the contact. At rest, the
+    work that drives it comes to it or goes.
+    """
+
+    id: ClassVar[str] = "work-of-contact-forgotten"
+    likely: ClassVar[int] = 2
+
+    def work_of_drift(self, _contact: str) -> sp.Expr:
+        return self.zero
+
+
+@dataclass(frozen=True, eq=False)
+class ConstraintImpulseForgotten(ImpactMistake):
+    """The contact acts alone, as if no rod, guide or loop answered it.
+
+    Reactions are as large as it takes to keep the constraints; while forces are impulsive, so are they. `is_partial`:
+    Λ is right, and the momenta behind it lack what the constraints answer.
+    """
+
+    id: ClassVar[str] = "constraint-impulse-forgotten"
+    likely: ClassVar[int] = 1
+    is_partial: bool = False
+
+    @classmethod
+    def variants(cls, true: Solution) -> Iterator[Self]:
+        for one in super().variants(true) if true.conditions else ():
+            yield one
+            yield replace(one, is_partial=True)
+
+    def effective_mass(self, contact: str) -> sp.Expr:
+        return super().effective_mass(contact) if self.is_partial else self.free_mass(contact)
+
+    def constraint_share(self, _contact: str, _condition: Condition) -> sp.Expr:
+        return self.zero
+
+    def impact_loss(self, contact: str) -> sp.Expr:
+        return self.true.impact_loss(contact) if self.is_partial else super().impact_loss(contact)

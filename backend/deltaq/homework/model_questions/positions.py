@@ -10,13 +10,15 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
-from itertools import islice, product
+from itertools import combinations, islice, product
 from types import MappingProxyType
 from typing import Any
 
 import sympy as sp
 
+from ...derivation.bound_equilibria import smooth_conditions, smooth_matrix
 from ...derivation.equilibria import Equilibrium, is_angle
+from ...derivation.impacts import frictions
 from ...derivation.matrix_form import forces_at_rest
 from ...derivation.optional import motions_of, search_of
 from ...derivation.system import System
@@ -58,12 +60,10 @@ ANY = re.compile(r"\b(?:beliebig|arbitrary|any|frei|free)\b")
 def asked(solution: Solution) -> tuple[Equilibrium, ...]:
     """The equilibria, if all are known, isolated but for coordinates that may have any value, and few enough."""
     model = solution.model
-    if model.conditions:
-        return ()  # multipliers would belong to them
     search = search_of(model)
     if search is None or not search.complete or not 0 < search.count == len(search.found) <= MOST:
         return ()
-    if any(linear.band is not None for linear in motions_of(model)):
+    if any(linear.band is not None for linear in motions_of(model)) or (model.conditions and frictions(model)):
         return ()  # dry friction holds it beside them, too
     moving = set(map(model.q, model.free))
     told = {frozenset(each.values) for each in search.found}
@@ -107,7 +107,8 @@ class Positions:
         partial = max(0, len(hit) - len(wrong)) / len(right)
         if wrong:
             member = ", ".join(_rows(wrong[0], Typography(solution.scene.names)))
-            return Verdict("wrong", remark="no-equilibrium", partial=partial, parameters={"member": member})
+            remark = "no-equilibrium" if _keeps_constraints(solution.model, wrong[0]) else "off-constraint"
+            return Verdict("wrong", remark=remark, partial=partial, parameters={"member": member})
         if answer.narrowed:
             return Verdict("wrong", remark="one-of-family", about=answer.narrowed[0], partial=partial / 2)
         if len(hit) < len(right):
@@ -360,6 +361,25 @@ def parameter_sets(model: System) -> tuple[Mapping[sp.Symbol, sp.Expr], ...]:
 
 
 def _is_at_rest(model: System, position: Position) -> bool:
-    forces = [force.xreplace(dict(position)) for force in forces_at_rest(model)]
-    numbers = [_number(force, values) for force in forces for values in parameter_sets(model)]
+    return _keeps_constraints(model, position) and _vanish(model, _unbalanced(model), position)
+
+
+def _keeps_constraints(model: System, position: Position) -> bool:
+    return _vanish(model, smooth_conditions(model), position)
+
+
+@cached_method
+def _unbalanced(model: System) -> tuple[sp.Expr, ...]:
+    """What is zero where reactions balance the forces: f, or all minors of A with f as one row more."""
+    forces = forces_at_rest(model)
+    if not model.conditions:
+        return tuple(forces)
+    table = smooth_matrix(model).col_join(forces.T)
+    chosen = combinations(range(table.cols), table.rows)
+    return tuple(table.extract(list(range(table.rows)), list(columns)).det(method="berkowitz") for columns in chosen)
+
+
+def _vanish(model: System, values: Sequence[sp.Expr], position: Position) -> bool:
+    there = [value.xreplace(dict(position)) for value in values]
+    numbers = [_number(value, parameters) for value in there for parameters in parameter_sets(model)]
     return all(number is not None and abs(number) < SAME for number in numbers)

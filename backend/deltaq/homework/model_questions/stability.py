@@ -152,7 +152,9 @@ class Truth:
 
     @cached_property
     def _entries(self) -> list[list[Valued]]:
-        kept = [i for i, q in enumerate(self.model.free) if q not in free_coordinates(self.model)]
+        every = range(self.linear.stiffness.rows)
+        free = () if self.linear.tangent else free_coordinates(self.model)
+        kept = [i for i in every if not free or self.model.free[i] not in free]
         matrix = self.linear.stiffness.extract(kept, kept)
         return [[valued(self.model, entry) for entry in row] for row in matrix.tolist()]
 

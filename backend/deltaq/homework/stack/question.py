@@ -21,7 +21,7 @@ from ...mechanics.user_text import UserText, in_language, translated
 from ...narration.catalog import text
 from ...narration.prose import CatalogText, joined, pieces, words
 from ..assignment import resolved
-from ..equality import Parts, symmetry
+from ..equality import Parts, kept_by_constraints, symmetry, where_kept
 from ..equality.frequencies import number_of
 from ..feedback import about_texts
 from ..partwise import DECIDED, part_share
@@ -121,7 +121,7 @@ def asked_in(sheet: AssignmentDocument) -> list[Asked]:
 
 def _document(asked: Sequence[Asked], language: str, first: Iterable[Element] = ()) -> str:
     """What STACK cannot judge is named in a comment. Raises RequestError where it can judge nothing."""
-    told = left_out(one.task for one in asked)
+    told = left_out(asked)
     if told and len(told) == len(asked):
         raise RequestError(Problem("stack-none", "/tasks", parameters={"tasks": ", ".join(told)}))
     root = Element("quiz")
@@ -133,9 +133,18 @@ def _document(asked: Sequence[Asked], language: str, first: Iterable[Element] = 
     return '<?xml version="1.0" encoding="UTF-8"?>\n' + tostring(root, encoding="unicode") + "\n"
 
 
-def left_out(tasks: Iterable[Task]) -> list[str]:
-    """The tasks whose answers Maxima cannot compare: words, positions, and what other integrals may be added to."""
-    return [task.id for task in tasks if task.quantity.judge is not None or task.quantity.equality is symmetry]
+def left_out(asked: Iterable[Asked]) -> list[str]:
+    """The tasks whose answers Maxima cannot compare.
+
+    Words, positions, what other integrals may be added to, and what is equal only where constraints are kept.
+    """
+    return [one.task.id for one in asked if not _is_comparable(one)]
+
+
+def _is_comparable(asked: Asked) -> bool:
+    quantity, bound = asked.task.quantity, bool(asked.workbook.solution.conditions)
+    where_kept_only = bound and quantity.equality in (kept_by_constraints, where_kept)
+    return quantity.judge is None and quantity.equality is not symmetry and not where_kept_only
 
 
 def _category(title: UserText) -> Element:
