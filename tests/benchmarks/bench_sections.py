@@ -17,6 +17,7 @@ import numpy as np
 from scipy.integrate import solve_ivp
 from tests.simulation.scenes import scene
 
+from deltaq.lab.orbits import ORDER, TOLERANCE
 from deltaq.language.parser import parse
 from deltaq.mechanics.scene import Scene
 from deltaq.model.observables import Observables
@@ -48,7 +49,7 @@ def points(of: Scene, begun: Floats, *, twins: bool) -> tuple[Floats, float]:
     surface = Surface(Observables(of).observable(parse("x", of.names)).jet.table)
     problem, flag = problem_of(of, SPAN), np.zeros(1, dtype=np.int64)
     start = process_time()
-    steps = Steps(0.05 * SPAN, 1e-16, order=28)
+    steps = Steps(0.05 * SPAN, TOLERANCE, order=ORDER)
     found = [part for part, _ in follow(problem, surface, begun, steps, 10**6, flag, twins=twins)]
     seconds = process_time() - start
     rows = np.concatenate([np.column_stack([part.motions, part.times, part.states]) for part in found])

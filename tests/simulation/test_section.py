@@ -9,6 +9,7 @@ import pytest
 from scipy.integrate import solve_ivp
 from tests.simulation.scenes import scene
 
+from deltaq.lab.orbits import ORDER, TOLERANCE
 from deltaq.language.parser import parse
 from deltaq.mechanics.scene import Scene
 from deltaq.model.observables import Observables
@@ -19,7 +20,7 @@ from deltaq.simulation.run import Steps
 from deltaq.simulation.section import Crossings, Standing, Surface, follow
 from deltaq.simulation.service import problem_of
 
-STEPS = Steps(10.0, 1e-16, order=28)
+STEPS = Steps(10.0, TOLERANCE, order=ORDER)
 
 
 def plane(energy: str) -> Scene:

@@ -25,7 +25,7 @@ from ..simulation.section import Crossings, Standing, follow
 from ..vocabulary import RungStatus
 from .plane import Section
 
-TOLERANCE, ORDER = 1e-16, 28
+TOLERANCE, ORDER = 1e-16, 36
 LARGEST_STEP = 0.05  # over the span
 TOGETHER = 64  # orbits that are followed side by side
 FACTOR, ROUNDING = 4.0, 2.0**-51  # of the difference of two runs that are both as wrong; of a point by itself

@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..model.recurrences import nudged
+from .kernels.ensemble import aligned
 from .kernels.motion import FINE, NOT_FINITE, SINGULAR, SMALLEST_PIVOT, STEP_LIMIT, STEP_UNDERFLOW, TOO_LARGE
 from .kernels.step import LARGEST_VALUE
 from .kernels.taylor import ALWAYS_UNNOTICED, PLACES, ROOM, SHORTER, UNNOTICED
@@ -22,6 +23,7 @@ from .pieces import Pieces
 from .problem import Floats, Problem
 from .run import Steps
 from .series.engine import LANES, jet_of_model
+from .series.evaluation import evaluated
 
 Integers = NDArray[np.int64]
 Truths = NDArray[np.bool_]
@@ -95,8 +97,6 @@ class _Lanes:
 
     def mixed(self, other: _Lanes, which: Truths) -> _Lanes:
         """The other ones where `which` holds, else these."""
-        if which.all():
-            return other
         pairs = ((getattr(self, one.name), getattr(other, one.name)) for one in fields(self))
         return _Lanes(*(np.where(which, theirs, mine) for mine, theirs in pairs))
 
@@ -133,7 +133,7 @@ class March:
         self._constants = np.where(is_twin, recurrences.nudged(constants)[:, None], constants[:, None])
         self._tolerances = steps.tolerance * np.where(is_twin, BELOW, 1.0)
         self._shares = np.where(is_twin, SHORTER_TWIN, 1.0)
-        self._call, self._work = _CALL(self.jet.code.address), np.zeros(self.jet.work)
+        self._call, self._work = _CALL(self.jet.code.address), aligned(self.jet.work)
         self._program = np.array([self.order], dtype=np.int64)
         pieces = steps.pieces or Pieces.whole(self.end_time)
         bounds = pieces.bounded(steps.size)
@@ -185,8 +185,8 @@ class March:
         size, is_cut = self._cut(size)
         shares = np.arange(1, parts + 1)[:, None] / parts
         theta = (size / lanes.units) * shares
-        values, slopes = self._horner(theta)
-        rates = (slopes / lanes.units)[:, :n]
+        values, slopes = evaluated(lanes.coefficients[:, : self.jet.shape.width], theta)
+        rates = slopes[:, :n] / lanes.units
         change = values[-1] + lanes.rest
         new = lanes.old + change
         self._trial = _Trial(
@@ -196,11 +196,12 @@ class March:
             is_cut,
             new,
             change - (new - lanes.old),
-            slopes[-1, :n] / lanes.units,
+            rates[-1],
         )
-        states = lanes.old[:n] + (values[:, :n] + lanes.rest[:n])
-        rows = np.concatenate([states, (lanes.now + size * shares)[:, None]], axis=1)
-        return theta, np.moveaxis(rows, 1, 2), np.moveaxis(rates, 1, 2), size / parts
+        rows = np.empty((parts, n + 1, len(size)))
+        rows[:, :n] = lanes.old[:n] + (values[:, :n] + lanes.rest[:n])
+        rows[:, n] = lanes.now + size * shares
+        return theta, rows.transpose(0, 2, 1), rates.transpose(0, 2, 1), size / parts
 
     def accept(self, is_unseen: Truths) -> Truths:
         """Whether the step tried is taken, by lane; where it was bad, or `is_unseen` and not too short, it is not."""
@@ -214,25 +215,28 @@ class March:
         refused |= is_unseen & (trial.size > LEAST_PART * trial.wanted)
         taken = ~refused & (outcome == FINE)
         ended = ~refused & (outcome != FINE)
-        least = np.full_like(trial.size, np.inf)
-        count = lanes.tried + 1
-        gone = _Lanes(lanes.which, trial.new, trial.rest, trial.end, least, count, units, following)
-        stays = replace(lanes, least=np.where(refused, SHORTER * trial.size, lanes.least), tried=count)
-        self._last, self._lanes, self._trial = lanes, stays.mixed(gone, taken), None
+        least, count = np.full(len(taken), np.inf), lanes.tried + 1
+        following_lanes = _Lanes(lanes.which, trial.new, trial.rest, trial.end, least, count, units, following)
+        if not taken.all():
+            stays = replace(lanes, least=np.where(refused, SHORTER * trial.size, lanes.least), tried=count)
+            following_lanes = stays.mixed(following_lanes, taken)
+        self._last, self._lanes, self._trial = lanes, following_lanes, None
         # where steps become so short the motion has a singularity, and never comes to the end of the span
         smallest = np.where(refused, np.minimum(trial.wanted, SHORTER * trial.size), trial.wanted)
         is_stuck = (smallest < LEAST_STEP * self.end_time) | (lanes.now + smallest <= lanes.now)
-        outcome[is_stuck] = STEP_UNDERFLOW
         ended |= is_stuck
-        self.outcomes[lanes.which[ended]] = outcome[ended]
-        self.outcomes[lanes.which[~ended & (count >= self.problem.step_limit)]] = STEP_LIMIT
+        if ended.any():
+            outcome[is_stuck] = STEP_UNDERFLOW
+            self.outcomes[lanes.which[ended]] = outcome[ended]
+        if count.max() >= self.problem.step_limit:
+            self.outcomes[lanes.which[~ended & (count >= self.problem.step_limit)]] = STEP_LIMIT
         self.outcomes[lanes.which[taken & (trial.end >= self.end_time)]] = FINE
         return np.asarray(taken)
 
     def polynomials(self, lanes: Integers) -> Polynomials:
         """The series of the step looked at last, by place among the lanes that took it."""
         last, width = self._last, self.jet.shape.width
-        coefficients = np.moveaxis(last.coefficients[:, :width, lanes], 2, 0)
+        coefficients = last.coefficients[:, :width, lanes].transpose(2, 0, 1)
         old, rest = last.old[:, lanes].T, last.rest[:, lanes].T
         return Polynomials(coefficients, old, rest, last.now[lanes], last.units[lanes], self.degrees)
 
@@ -260,17 +264,22 @@ class March:
 
     def _expanded(self, which: Integers, states: Floats, times: Floats, units: Floats) -> Floats:
         """The coefficients at these states, shape (order + 1, components, lanes)."""
-        count, lanes = len(times), self.jet.shape.lanes
+        count, width, lanes = len(times), self.jet.shape.width, self.jet.shape.lanes
         blocks = -(-count // lanes)
-        padded = np.minimum(np.arange(blocks * lanes), count - 1)
-        given = np.vstack([units, states, times, self._constants[:, which]])[:, padded].reshape(-1, blocks, lanes)
-        given = np.ascontiguousarray(given.transpose(1, 0, 2))
+        rows = np.empty((width + 2 + len(self._constants), blocks * lanes))
+        rows[0, :count], rows[1 : width + 1, :count], rows[width + 1, :count] = units, states, times
+        rows[width + 2 :, :count] = self._constants[:, which]
+        rows[:, count:] = rows[:, count - 1 : count]  # lanes that are left over go along
+        given = aligned(blocks, len(rows), lanes)
+        given[:] = rows.reshape(-1, blocks, lanes).transpose(1, 0, 2)
         # zeros, for the last coefficients of conditions and all but the first of pivots are not written
-        out = np.zeros((blocks, self.order + 1, self.jet.shape.components, lanes))
+        out = aligned(blocks, self.order + 1, self.jet.shape.components, lanes)
         to, of, work, program = (each.ctypes.data for each in (out, given, self._work, self._program))
         for block in range(blocks):
             self._call(to + block * out.strides[0], of + block * given.strides[0], work, program)
-        return np.ascontiguousarray(out.transpose(1, 2, 0, 3).reshape(*out.shape[1:3], -1)[..., :count])
+        if blocks == 1:
+            return out[0] if count == lanes else out[0, ..., :count]
+        return out.transpose(1, 2, 0, 3).reshape(*out.shape[1:3], -1)[..., :count]
 
     def _outcome(self, found: Floats, states: Floats) -> Integers:
         """Whether series can be used, by lane."""
@@ -278,6 +287,8 @@ class March:
         first = shape.width + len(shape.recurrences.conditions)
         pivots, diagonals = found[0, first::2], found[0, first + 1 :: 2]
         total = (np.abs(found[1, :n]) + np.abs(found[self.order, :n]) + np.abs(states[:n])).sum(axis=0)
+        if (total <= LARGEST_VALUE).all() and (pivots > SMALLEST_PIVOT * diagonals).all():
+            return np.full(len(total), FINE)
         outcome = np.where(np.isnan(total), NOT_FINITE, np.where(total <= LARGEST_VALUE, FINE, TOO_LARGE))
         singular = ~(pivots > SMALLEST_PIVOT * diagonals)
         lost = np.isnan(pivots).any(axis=0)
@@ -287,20 +298,24 @@ class March:
         """The step by which the last two coefficients shrink to the tolerance, by lane."""
         n, c, order = 2 * self.degrees, self._lanes.coefficients, self.order
         scale = np.maximum(1.0, np.abs(self._lanes.old[:n])) * self._tolerances[self._lanes.which]
+        orders = np.array([[order - 1.0], [order]])
         with np.errstate(divide="ignore"):
-            last, before = (np.log((np.abs(c[k, :n]) / scale).max(axis=0)) / k for k in (order, order - 1))
-        return np.asarray(self._lanes.units * np.exp(-0.7 / (order - 1.0) - np.maximum(last, before)))
+            steepest = (np.log((np.abs(c[order - 1 : order + 1, :n]) / scale).max(axis=1)) / orders).max(axis=0)
+        return np.asarray(self._lanes.units * np.exp(-0.7 / (order - 1.0) - steepest))
 
     def _fitted(self, wanted: Floats) -> tuple[Floats, Floats]:
         """Steps within the pieces of the span, and the times that they end at."""
         now = self._lanes.now
         piece = np.minimum(np.searchsorted(self._ends, now, side="right"), len(self._ends) - 1)
-        size, left = np.minimum(wanted, self._shares[self._lanes.which] * self._bounds[piece]), self._ends[piece] - now
+        ends = self._ends[piece]
+        size, left = np.minimum(wanted, self._shares[self._lanes.which] * self._bounds[piece]), ends - now
         is_last = size * (1.0 + 1e-9) >= left
-        return np.where(is_last, left, size), np.where(is_last, self._ends[piece], now + size)
+        return np.where(is_last, left, size), np.where(is_last, ends, now + size)
 
     def _cut(self, size: Floats) -> tuple[Floats, Truths]:
         """Steps up to just behind where the argument of a condition first changes its sign."""
+        if not self.jet.shape.recurrences.conditions:
+            return size, np.zeros(len(size), dtype=bool)
         found, lanes = size.copy(), self._lanes
         for row in range(self.jet.shape.width, self.jet.shape.width + len(self.jet.shape.recurrences.conditions)):
             for lane in range(len(size)):
@@ -309,21 +324,6 @@ class March:
                 if at < found[lane]:
                     found[lane] = min(found[lane], at + ROOM * ROUNDING * max(lanes.now[lane], size[lane]))
         return found, found < size
-
-    def _horner(self, theta: Floats) -> tuple[Floats, Floats]:
-        """What states grow by up to places θ, (parts, lanes), and the derivatives by θ: (parts, width, lanes) each."""
-        c, x = self._lanes.coefficients[:, : self.jet.shape.width], theta[:, None]
-        values = np.broadcast_to(c[self.order], (len(theta), *c.shape[1:])).copy()
-        slopes = np.zeros_like(values)
-        for k in range(self.order - 1, 0, -1):
-            slopes *= x
-            slopes += values
-            values *= x
-            values += c[k]
-        slopes *= x
-        slopes += values
-        values *= x
-        return values, slopes
 
     def _is_bad(self, trial: _Trial, following: Floats, units: Floats, outcome: Integers) -> Truths:
         """Whether a step was worse than it seemed, and a shorter one may be better."""
