@@ -1,13 +1,15 @@
 from __future__ import annotations
 
 import asyncio
-from typing import Any
+from dataclasses import replace
+from typing import Any, Literal
 
 import httpx
 import numpy as np
 import pytest
 from fastapi import FastAPI
 
+from deltaq.api.routes import simulations
 from deltaq.contract.simulation import SimulationAnswer
 from deltaq.mechanics.library import load_scene, scene_ids
 
@@ -55,6 +57,40 @@ async def test_a_motion_does_not_wait_for_kernels_that_are_being_compiled(
     assert (early.status_code, later.status_code) == (200, 200)
     np.testing.assert_allclose(early.json()["coordinates"]["phi"], later.json()["coordinates"]["phi"], atol=1e-9)
     assert early.headers["etag"] != later.headers["etag"]
+
+
+class AskedFor(asyncio.Event):
+    """An event that tells when somebody waits for it."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.asked = asyncio.Event()
+
+    async def wait(self) -> Literal[True]:
+        self.asked.set()
+        return await super().wait()
+
+
+async def test_a_motion_that_is_too_long_for_the_interpreter_waits_for_kernels(
+    client: httpx.AsyncClient, app: FastAPI, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """The interpreter gives up; the answer is that of compiled kernels, once they are there, and no other."""
+    question = {"scene": "double-pendulum", "t_end": 61.0, "samples": 11}
+    is_there = AskedFor()
+    on_new_machine = replace(simulations.SIMULATE_AT_ONCE, target="tests.api.workers.jobs:simulate_on_new_machine")
+    monkeypatch.setattr(simulations, "SIMULATE_AT_ONCE", on_new_machine)
+    monkeypatch.setitem(app.state.service.kernels._compiled, "explicit-runge-kutta", is_there)
+    early = asyncio.create_task(client.post(SIMULATIONS, json=question))
+    try:
+        await asyncio.wait_for(is_there.asked.wait(), 60.0)
+        await asyncio.sleep(0.1)
+        assert not early.done()
+    finally:
+        is_there.set()
+    found, later = await early, await client.post(SIMULATIONS, json=question)
+    assert found.status_code == 200
+    assert found.json()["status"] in {"ok", "horizon_reached"}
+    assert (found.content, found.headers["etag"]) == (later.content, later.headers["etag"])
 
 
 @pytest.mark.parametrize(

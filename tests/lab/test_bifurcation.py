@@ -119,6 +119,49 @@ def test_a_doubling_is_where_scipys_multiplier_is_minus_one(place: int) -> None:
     assert one["multipliers"][0] == pytest.approx([-1.0, 0.0], abs=1e-6)
 
 
+BILINEAR = line("k*x^2/2 + s*max(x, 0)^2/2", "F*cos(omega*t)", DRAG, k=1.0, s=9.0, c=0.1, F=1.0, omega=1.0)
+
+
+def bilinear_multiplier(omega: float, start: dict[str, Any]) -> tuple[float, float]:
+    """By SciPy, anew wherever x changes its sign: the multiplier next to −1, and how far a period is from closing."""
+
+    def of_side(stiffness: float) -> Any:
+        def rhs(t: float, y: np.ndarray) -> list[float]:
+            out = [y[1], math.cos(omega * t) - 0.1 * y[1] - stiffness * y[0]]
+            for column in (2, 4):
+                out += [y[column + 1], -stiffness * y[column] - 0.1 * y[column + 1]]
+            return out
+
+        return rhs
+
+    def passes(_t: float, y: np.ndarray) -> float:
+        return float(y[0])
+
+    passes.terminal = True  # type: ignore[attr-defined]
+    t, y, period = 0.0, np.array([start["x"]["value"], start["x"]["rate"], 1.0, 0.0, 0.0, 1.0]), math.tau / omega
+    while t < period:
+        passes.direction = -1.0 if (y[0] or y[1]) > 0.0 else 1.0  # type: ignore[attr-defined]
+        stiffness = 10.0 if passes.direction < 0.0 else 1.0  # type: ignore[attr-defined]
+        part = solve_ivp(of_side(stiffness), (t, period), y, "DOP853", rtol=1e-12, atol=1e-13, events=passes)
+        t, y = float(part.t[-1]), part.y[:, -1].copy()
+        if part.status == 1:
+            y[0] = 0.0
+    apart = math.hypot(y[0] - start["x"]["value"], y[1] - start["x"]["rate"])
+    roots = np.linalg.eigvals(y[2:].reshape(2, 2).T)
+    return float(roots[np.argmin(np.abs(roots + 1.0))].real), apart
+
+
+def test_forces_with_a_kink_double_their_period_where_scipys_multiplier_is_minus_one() -> None:
+    """A spring that is ten times as stiff on one side (Shaw and Holmes, J. Sound Vib. 90 (1983) 129–155)."""
+    found = ask(scene=BILINEAR, sweep=swept("omega", 0.98, 1.05), skip=60)
+    (one,) = (each for each in found["bifurcations"] if each["kind"] == "period-doubling" and each["folds"] == 1)
+    here, apart = bilinear_multiplier(one["value"], one["initial"])
+    assert apart < 1e-8
+    assert here == pytest.approx(-1.0, abs=1e-6)
+    assert found["up"][0]["folds"] == 2
+    assert found["up"][-1]["folds"] == 1
+
+
 def folds_of_duffing() -> list[float]:
     """Saddle-nodes by harmonic balance: over the amplitude of the first harmonic ω is largest, and smallest, there."""
     orders, phase = np.arange(1, 16, 2), np.linspace(0.0, math.tau, 128, endpoint=False)
@@ -269,7 +312,7 @@ def test_where_motions_leave_the_part_before_stays_good() -> None:
 
 
 FREE = line("k*x^2/2", "0*x", x=1.0, k=1.0)
-KINKED = line("k*abs(x)", "F*cos(omega*t)", DRAG, k=1.0, c=0.3, F=1.0, omega=1.0)
+STICKING = line("k*x^2/2", "F*cos(omega*t) - c*sign(dot(x))", k=1.0, c=0.3, F=1.0, omega=1.0)
 PULSED = line("k*x^2/2", "F*exp(-sin(omega*t^2))", DRAG, k=1.0, c=0.3, F=1.0, omega=1.0)
 IDLE = line("k*x^2/2", "F*cos(omega*t)", DRAG, k=1.0, c=0.3, F=1.0, omega=1.0, z=1.0)
 GAMMA = swept("gamma", 1.06, 1.07)
@@ -326,7 +369,7 @@ REFUSED = [
     pytest.param(
         {"scene": "pendulum", "sweep": swept("l", 1, 2)}, "bifurcation-conservative", "/scene", id="free pendulum"
     ),
-    pytest.param({"scene": KINKED, "sweep": swept("F", 1, 2)}, "bifurcation-kinks", "/scene", id="kinks"),
+    pytest.param({"scene": STICKING, "sweep": swept("F", 1, 2)}, "bifurcation-friction", "/scene", id="friction"),
     pytest.param({"scene": PULSED, "sweep": swept("F", 1, 2)}, "bifurcation-no-period", "/period", id="no period"),
     pytest.param(
         {"scene": line("-k*x^2/2", "F*cos(omega*t)", k=1.0, F=1.0, omega=1.0), "sweep": swept("F", 1, 2), "skip": 200},

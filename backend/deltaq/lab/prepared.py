@@ -61,8 +61,8 @@ def prepared(request: BifurcationRequest) -> Prepared:
     place = parameter_of(subject, request.sweep.parameter, "/sweep/parameter")
     _require_values(subject, request)
     problem = bounded(subject, MOST_STEPS)
-    if problem.model.recurrences.conditions:
-        raise RequestError(Mistake("bifurcation-kinks", "/scene"))
+    if problem.model.switches is not None:
+        raise RequestError(Mistake("bifurcation-friction", "/scene"))
     values = np.linspace(request.sweep.start, request.sweep.to, request.sweep.count)
     name = request.sweep.parameter
     observables = Observables(subject.scene, (name,))

@@ -164,7 +164,8 @@ def in_lanes(
         np.zeros(count, dtype=np.int64),
         np.zeros(count, dtype=np.int64),
     )
-    sizes, code = (jet.shape.components, constants.shape[1], jet.work, jet.shape.lanes), jet.code.addresses
+    conditions, code = len(recurrences.conditions), jet.code.addresses
+    sizes = conditions, jet.shape.components, constants.shape[1], jet.work, jet.shape.lanes
     addresses = code["jet"], code["advance"], code["measure"]
 
     def block(start: int) -> int:

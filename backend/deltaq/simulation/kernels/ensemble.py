@@ -13,10 +13,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .compiler import inline, kernel
-from .motion import CANCELLED, FINE, NOT_FINITE, SINGULAR, STEP_LIMIT, STEP_UNDERFLOW, TOO_LARGE, Floats
+from .motion import CANCELLED, FINE, NOT_FINITE, ROUNDING, SINGULAR, STEP_LIMIT, STEP_UNDERFLOW, TOO_LARGE, Floats
 from .pointer import call_jet
 from .step import LARGEST_VALUE
-from .taylor import ALWAYS_UNNOTICED, LEAST_OF_SURPRISING, MOST_ORDERS, SHORTER, UNNOTICED
+from .taylor import ALWAYS_UNNOTICED, LEAST_OF_SURPRISING, MOST_ORDERS, ROOM, SHORTER, UNNOTICED, sign_change
 
 OLD, NEW, OLD_REST, NEW_REST, SLOPES = 0, 1, 2, 3, 4  # rows of states
 # Rows of what is told of steps: θ of the step to go, and of that gone in the new unit of time; that unit, tolerance.
@@ -56,7 +56,8 @@ class Lanes(NamedTuple):
     slopes; `told`, shape (ROWS, lanes), is what the code is told of steps, and tells. `before` and `now` are times,
     `sizes` steps, `units` units of time, `least` the largest step that may be tried, and `sizes_before` the steps last
     taken, shape (lanes,); `member` is the number of a motion, −1 for none, and `is_pending` whether a step waits for
-    its verdict (1), or, negative, how often the first series was out of range.
+    its verdict (1), or, negative, how often the first series was out of range. `is_cut` says whether it
+    ends where one of so many `conditions` of the forces changes.
     """
 
     jet: int
@@ -64,6 +65,7 @@ class Lanes(NamedTuple):
     measure: int
     order: int
     degrees: int
+    conditions: int
     given: Floats
     coefficients: Floats
     work: Floats
@@ -82,18 +84,20 @@ class Lanes(NamedTuple):
     least: Floats
     member: Integers
     is_pending: Integers
+    is_cut: Integers
 
 
 def make_lanes(
-    addresses: tuple[int, int, int], order: int, degrees: int, width: int, sizes: tuple[int, int, int, int]
+    addresses: tuple[int, int, int], order: int, degrees: int, width: int, sizes: tuple[int, int, int, int, int]
 ) -> Lanes:
-    """The arrays for code at addresses; `sizes` are components, constants, work space, lanes."""
-    components, constants, work, count = sizes
+    """The arrays for code at addresses; `sizes` are conditions, components, constants, work space, lanes."""
+    conditions, components, constants, work, count = sizes
     states, rows = aligned(5, width, count), aligned(4, count)
     return Lanes(
         *addresses,
         order,
         degrees,
+        conditions,
         aligned(width + 2 + constants, count),
         aligned(2, MOST_ORDERS, components, count),
         aligned(work),
@@ -111,6 +115,7 @@ def make_lanes(
         np.ones(count),
         np.full(count, np.inf),
         np.full(count, -1, dtype=np.int64),
+        np.zeros(count, dtype=np.int64),
         np.zeros(count, dtype=np.int64),
     )
 
@@ -215,6 +220,8 @@ def judge_lane(lanes: Lanes, lane: int, members: Members, tolerance: float) -> i
         return 1 if outcome == FINE else begin_again(lanes, lane, outcome)
     h = lanes.sizes_before[lane]
     defect = lanes.told[DEFECTS, lane] if outcome == FINE else np.inf
+    if outcome == FINE and lanes.is_cut[lane] == 1:  # behind the place the forces are others
+        defect = 0.0
     if defect > max(UNNOTICED * tolerance, ALWAYS_UNNOTICED) and lanes.least[lane] > LEAST_OF_SURPRISING * h:
         lanes.least[lane] = lanes.sizes[lane] = SHORTER * h
         lanes.now[lane], lanes.is_pending[lane] = lanes.before[lane], 0
@@ -229,14 +236,28 @@ def judge_lane(lanes: Lanes, lane: int, members: Members, tolerance: float) -> i
 
 
 @inline
-def plan_lane(lanes: Lanes, lane: int, largest: float, end: float) -> None:
+def cut_of(lanes: Lanes, row: int, lane: int, h: float) -> float:
+    """A step up to h that ends a little behind where the first condition changes, if one does."""
+    found, width = h, lanes.new.shape[0]
+    for c in range(lanes.conditions):
+        column = lanes.coefficients[row, :, width + c, lane]
+        at = sign_change(column, lanes.order, lanes.units[lane], found)
+        if at >= 0.0:
+            found = min(found, at + ROOM * ROUNDING * max(lanes.now[lane], h))
+    return found
+
+
+@inline
+def plan_lane(lanes: Lanes, row: int, lane: int, largest: float, end: float) -> None:
     """The next step of a lane, as in `taylor`."""
     lanes.units[lane] = lanes.given[0, lane]
-    h, left = min(lanes.told[WANTED, lane], largest, lanes.least[lane]), end - lanes.now[lane]
+    wanted, left = min(lanes.told[WANTED, lane], largest, lanes.least[lane]), end - lanes.now[lane]
     lanes.before[lane] = lanes.now[lane]
-    is_last = h * (1.0 + 1e-9) >= left
-    lanes.sizes[lane] = lanes.sizes_before[lane] = left if is_last else h
-    lanes.now[lane] = end if is_last else lanes.now[lane] + h
+    h = left if wanted * (1.0 + 1e-9) >= left else wanted
+    size = cut_of(lanes, row, lane, h) if lanes.conditions > 0 else h
+    lanes.is_cut[lane] = 1 if size < h else 0
+    lanes.sizes[lane] = lanes.sizes_before[lane] = size
+    lanes.now[lane] = end if size == left else lanes.now[lane] + size
     lanes.is_pending[lane] = 1
 
 
@@ -294,7 +315,7 @@ def integrate_members(
         for lane in range(lanes.now.size):
             verdict = verdict_on(lanes, row, lane, members, tolerance, limit, cancelled)
             if verdict == GOES_ON:
-                plan_lane(lanes, lane, largest, end)
+                plan_lane(lanes, row, lane, largest, end)
                 continue
             lanes.units[lane] = lanes.given[0, lane]  # its series is not known yet: it rests for this round
             if verdict == ENDED:

@@ -194,31 +194,50 @@ def defect_of(series: Series, row: int, h: float, degrees: int) -> float:
     return largest
 
 
+@inline
+def grown(column: Floats, order: int, theta: float) -> float:
+    """Σ cₖ θᵏ over k ≥ 1; `column`, shape (≥ order + 1,), has the coefficients."""
+    value = 0.0
+    for k in range(order, 0, -1):
+        value = (value + column[k]) * theta
+    return value
+
+
 @subroutine
+def sign_change(column: Floats, order: int, unit: float, h: float) -> float:
+    """Where in a step of size h a polynomial has changed the sign that it begins with, at its first root; −1 if never.
+
+    `column`, shape (≥ order + 1,), has its coefficients for times in `unit`.
+    """
+    start, below, above = column[0], 0.0, -1.0
+    for i in range(1, PLACES + 1):
+        at = h * i / PLACES
+        value = start + grown(column, order, at / unit)
+        if (start > 0.0 and value <= 0.0) or (start < 0.0 and value >= 0.0) or (start == 0.0 and value != 0.0):
+            above = at
+            break
+        below = at
+    if above < 0.0:
+        return above
+    for _ in range(60):
+        middle = 0.5 * (below + above)
+        value = start + grown(column, order, middle / unit)
+        if (start > 0.0 and value > 0.0) or (start < 0.0 and value < 0.0):
+            below = middle
+        else:
+            above = middle
+    return above
+
+
+@inline
 def first_change(series: Series, row: int, t: float, h: float) -> float:
     """Where in a step of size h the first argument of a condition changes its sign, and a little further; else h."""
     found = h
     for c in range(series.conditions):
-        d = series.old.size + c
-        start = series.coefficients[row, 0, d]
-        below, above = 0.0, 0.0
-        for i in range(1, PLACES + 1):
-            at = found * i / PLACES
-            value = start + increment(series, row, d, at / series.units[row])
-            if (start > 0.0 and value <= 0.0) or (start < 0.0 and value >= 0.0) or (start == 0.0 and value != 0.0):
-                above = at
-                break
-            below = at
-        if above == 0.0:
-            continue
-        for _ in range(60):
-            middle = 0.5 * (below + above)
-            value = start + increment(series, row, d, middle / series.units[row])
-            if (start > 0.0 and value > 0.0) or (start < 0.0 and value < 0.0):
-                below = middle
-            else:
-                above = middle
-        found = min(found, above + ROOM * ROUNDING * max(t, h))
+        column = series.coefficients[row, :, series.old.size + c]
+        at = sign_change(column, series.order, series.units[row], found)
+        if at >= 0.0:
+            found = min(found, at + ROOM * ROUNDING * max(t, h))
     return found
 
 
