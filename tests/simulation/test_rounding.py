@@ -18,6 +18,8 @@ from deltaq.simulation.rounding import rounded, short, significant
         pytest.param(2.0**51 + 0.5, 1e9, 2.0**51, id="the last numbers with a half, to even"),
         pytest.param(2.0**52 + 1.0, 1e9, 2.0**52 + 1.0, id="the first without decimals"),
         pytest.param(1 / 3, 0.0, 0.333333333333333, id="no error: fifteen decimals"),
+        pytest.param(1e-6 / 3, 1e-21, 3.33333333333333e-7, id="small: fifteen behind the zeros"),
+        pytest.param(1e-9 / 3, 1e-25, 1e-9 / 3, id="smaller than powers of ten reach"),
         pytest.param(-1e-9, 1e-3, 0.0, id="no negative zero"),
     ],
 )

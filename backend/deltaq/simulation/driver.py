@@ -118,12 +118,16 @@ def _trajectory(
     found, n = best.estimate, problem.degrees
     is_reached = None if tolerance is None or found is None else found.worst <= tolerance and best.is_complete
     transitions = _transitions(best)
-    times, states, errors = _with_both_sides(transitions, *_shown(best, _refined(problem)))
+    times, states, told = _with_both_sides(
+        transitions, *_with_multipliers(found, problem, *_shown(best, _refined(problem)))
+    )
+    errors, of_multipliers = told[:, 0], told[:, 1:] if told.shape[1] > 1 else None
     reactions = None
     if problem.reactions:
         stretches = () if problem.released else tuple(Stretch(each.start, each.problem) for each in best.chosen.meshes)
         states, reactions = reactions_along(problem, times, states, stretches)
         times, errors = times[: len(states)], errors[: len(states)]
+        of_multipliers = of_multipliers if of_multipliers is None else of_multipliers[: len(states)]
     return Trajectory(
         method.id,
         outcome(problem, method, best, tolerance, step, guide_jump),
@@ -131,9 +135,7 @@ def _trajectory(
         states[:, :n],
         states[:, n : 2 * n],
         states[:, 2 * n] if states.shape[1] > 2 * n else np.zeros(len(states)),
-        None
-        if found is None
-        else Estimate(errors, found.worst, found.horizon, multipliers=_of_shown(found, _refined(problem), len(times))),
+        None if found is None else Estimate(errors, found.worst, found.horizon, multipliers=of_multipliers),
         is_reached,
         best.reached,
         min(run.conditioning for run in best.runs),
@@ -163,7 +165,10 @@ def _transitions(best: Attempt) -> tuple[Transition, ...]:
 def _with_both_sides(
     transitions: tuple[Transition, ...], times: Floats, states: Floats, errors: Floats
 ) -> tuple[Floats, Floats, Floats]:
-    """The samples, and at each event its time twice, with the states before and behind it."""
+    """The samples, and at each event its time twice, with the states before and behind it.
+
+    `errors` have shape (samples, k).
+    """
     inside = [each for each in transitions[:MOST_TOLD] if len(times) and each.time <= times[-1]]
     if not inside:
         return times, states, errors
@@ -177,16 +182,22 @@ def _with_both_sides(
     return (
         found[order],
         np.vstack([states[kept], sides])[order],
-        np.concatenate([errors[kept], np.repeat(doubts, 2)])[order],
+        np.concatenate([errors[kept], np.repeat(doubts, 2, axis=0)])[order],
     )
 
 
-def _of_shown(found: Estimate, every: int, count: int) -> Floats | None:
-    """The errors of the multipliers at the samples shown; an event's are those of the last sample before it."""
-    if found.multipliers is None:
-        return None
-    shown = found.multipliers[::every][:count]
-    return np.vstack([shown, np.repeat(found.multipliers[-1:], count - len(shown), axis=0)])
+def _with_multipliers(
+    found: Estimate | None, problem: Problem, times: Floats, states: Floats, errors: Floats
+) -> tuple[Floats, Floats, Floats]:
+    """The samples shown, their errors and those of the multipliers side by side, shape (samples, 1 + m).
+
+    Those of an event that ends the motion are those of the last sample before it.
+    """
+    if found is None or found.multipliers is None:
+        return times, states, errors[:, None]
+    shown = found.multipliers[:: _refined(problem)][: len(times)]
+    shown = np.vstack([shown, np.repeat(found.multipliers[-1:], len(times) - len(shown), axis=0)])
+    return times, states, np.column_stack([errors, shown])
 
 
 def _shown(best: Attempt, every: int) -> tuple[Floats, Floats, Floats]:

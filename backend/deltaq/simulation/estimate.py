@@ -16,8 +16,8 @@ import numpy as np
 from ..model.model import DISTURBANCE
 from .derivatives import accelerations
 from .event import Approach, EventOccurrence, event_values
-from .problem import Floats, Problem
-from .reactions import reactions_at
+from .problem import Floats, Problem, Stretch
+from .reactions import reactions_along
 from .run import Run
 from .stiffness import NUDGE
 
@@ -27,8 +27,9 @@ SLOPES = 160  # samples at which the slopes of multipliers are taken
 ANYWHERE = 0.1  # what counts of the largest before and behind, wherever it is
 TURNING = 4.0  # times the largest difference nearby: more than that no phase hides where a motion turns back
 ROUNDING, EPSILON = 4e-16, 2.0**-52
+OF_STATE = 4.0 * EPSILON  # of a coordinate or rate: its rounding where λ is computed from it
 STOPS = 1.5  # times the difference of two stops
-OF_TERMS = 8e-16  # of the largest multiplier: rounding errors of the terms that each is the difference of
+OF_TERMS = 2.4e-15  # of the largest multiplier: rounding errors of the terms that each is the difference of
 CLOSE = 3e-14  # so much of a difference may be one of rounding errors, which are no smaller in the finer run
 MATTERS = 0.05  # of the estimate: rounding that could be more is looked at
 LINEAR = 0.1  # of the size of a coordinate: differences up to that are proportional to errors
@@ -83,7 +84,7 @@ def estimate(problem: Problem, coarse: Run, fine: Run, factor: float) -> Estimat
     of_event = _of_event(problem, coarse, fine, factor, doubts[:, -1])
     doubtful = _doubtful(problem, coarse, fine, times, doubts)
     spreads = _spread(factors * difference[: 2 * n] + np.minimum(difference[: 2 * n], CLOSE))
-    reactions = _of_multipliers(problem, coarse, fine, spreads)
+    reactions = _of_multipliers(problem, coarse, fine, spreads, factors)
     return Estimate(errors.max(axis=0), worst, horizon, of_event, stop, doubtful, reactions)
 
 
@@ -135,25 +136,31 @@ def with_rounding(problem: Problem, found: Estimate, fine: Run, other: Run) -> E
     return replace(found, errors=errors, worst=worst, multipliers=reactions)
 
 
-def _of_multipliers(problem: Problem, coarse: Run, fine: Run, doubts: Floats) -> Floats | None:
+def _of_multipliers(problem: Problem, coarse: Run, fine: Run, doubts: Floats, factors: Floats) -> Floats | None:
     """The error of each multiplier, shape (samples, m); None where there are none.
 
     λ follows from q and q̇ without any integration: its error is Σ |∂λ/∂y| times theirs, `doubts`, shape (2n, samples).
     Where λ peaks, as in a rod that whips round, it may be a hundred times what it is in between, so that a difference
-    of two λ spread over a neighbourhood would say too much there, and too little beside it. Rounding is that of the
-    terms it is left of, which are about as large as the largest λ.
+    of two λ spread over a neighbourhood would say too much there; but no sum says more than the largest difference
+    nearby bears out, for λ may not depend on what is wrong, such as a direction. Rounding is that of the state, and of
+    the terms that λ is left of, about as large as the largest one.
     """
     if fine.reactions is None or coarse.reactions is None:
         return None
-    found = fine.reactions.multipliers
-    count = min(len(found), len(coarse.reactions.multipliers), doubts.shape[1])
-    largest = np.abs(found[:count]).max(axis=0, initial=0.0)[:, None]
+    found, other = fine.reactions.multipliers.T, coarse.reactions.multipliers.T
+    count = min(found.shape[1], other.shape[1], doubts.shape[1])
+    found, other = found[:, :count], other[:, :count]
+    largest = np.abs(found).max(axis=1, initial=0.0)[:, None]
     rounding = OF_TERMS * largest / np.sqrt(fine.conditioning) if fine.conditioning > 0.0 else np.inf
-    return _known(np.maximum(_by_state(problem, fine, count, doubts), rounding)).T
+    slopes, apart = _slopes(problem, fine, count), np.abs(other - found)
+    differences = factors[:count] * apart + np.minimum(apart, CLOSE * largest)
+    errors = np.minimum(_summed(slopes, doubts), TURNING * _largest_within(differences, max(2, count // FAR)))
+    own = _summed(slopes, OF_STATE * np.abs(fine.states[:count, : doubts.shape[0]].T))
+    return _known(np.maximum(errors, np.maximum(own, rounding))).T
 
 
-def _by_state(problem: Problem, fine: Run, count: int, doubts: Floats) -> Floats:
-    """Σ |∂λ/∂y| times the errors of y = (q, q̇): shape (m, count). Slopes are those of states kept on the constraints.
+def _slopes(problem: Problem, fine: Run, count: int) -> Floats:
+    """|∂λ/∂y| of y = (q, q̇) kept on the constraints: shape (2n, count, m); infinite where there is no λ.
 
     They are taken at some of the samples, and hold for those around.
     """
@@ -163,14 +170,21 @@ def _by_state(problem: Problem, fine: Run, count: int, doubts: Floats) -> Floats
     steps = NUDGE * np.maximum(1.0, np.abs(states[:, :width]).max(axis=0))
     rows = np.tile(states, (width + 1, 1)).reshape(width + 1, *states.shape)
     rows[np.arange(width) + 1, :, np.arange(width)] += steps[:, None]
-    found, reactions = reactions_at(problem, np.tile(times, width + 1), rows.reshape(-1, states.shape[1]))
+    stretches = tuple(Stretch(each.start, each.problem) for each in fine.meshes)  # each in its mode
+    every = np.tile(times, width + 1), rows.reshape(-1, states.shape[1])
+    found, reactions = reactions_along(problem, *every, stretches)
     if len(found) < rows.shape[0] * rows.shape[1]:
-        return np.full((reactions.multipliers.shape[1], count), np.inf)
+        return np.full((width, count, reactions.multipliers.shape[1]), np.inf)
     table = reactions.multipliers.reshape(width + 1, len(chosen), -1)
     slopes = np.abs(table[1:] - table[0]) / steps[:, None, None]
     slopes = np.maximum(slopes, np.roll(slopes, -1, axis=1)) if len(chosen) > 1 else slopes
     near = np.minimum(np.arange(count) // stride, len(chosen) - 1)
-    return np.asarray(np.einsum("kts,kt->st", slopes[:, near], doubts[:, :count]))
+    return np.asarray(slopes[:, near])
+
+
+def _summed(slopes: Floats, doubts: Floats) -> Floats:
+    """Σ |∂λ/∂y| times the errors of y: shape (m, count)."""
+    return np.asarray(np.einsum("kts,kt->st", slopes, doubts[:, : slopes.shape[1]]))
 
 
 def _together(problem: Problem, coarse: Run, fine: Run) -> tuple[Floats, Floats, Floats]:

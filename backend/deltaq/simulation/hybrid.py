@@ -11,6 +11,7 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 
 from ..model.modes import Modes
+from .constraints import Reactions
 from .event import Event
 from .integration import Flag
 from .kernels.loop import Result
@@ -30,9 +31,10 @@ SAME = 1e-13  # of the time
 
 @dataclass
 class _Record:
-    """What the stretches leave: samples, mesh, counts, events."""
+    """What the stretches leave: samples with their multipliers, mesh, counts, events."""
 
     out: Floats
+    held: Floats
     filled: int = 1
     work: float = 0.0
     steps: int = 0
@@ -59,6 +61,8 @@ class _Record:
         if states.size and states.shape[1] % 2:
             states[:, -1] += self.work
         self.out[self.filled : self.filled + len(states)] = states
+        if found.reactions is not None:
+            self.held[self.filled - 1 : self.filled + len(states)] = found.reactions.multipliers
         self.filled += len(states)
         self.steps += found.result.steps
         self.rejected += found.result.rejected
@@ -82,7 +86,8 @@ def _mesh(problem: Problem, found: Run) -> Mesh:
 def run_on(problem: Problem, modes: Modes, method: Method, times: Floats, cancelled: Flag, steps: Steps) -> Run:
     """The run of a problem in modes, with samples at `times`, shape (samples,), as far as it comes."""
     current = begun(problem, modes)
-    record = _Record(np.zeros((times.size, current.problem.state.size)))
+    width, count = current.problem.state.size, len(problem.reactions)
+    record = _Record(np.zeros((times.size, width)), np.zeros((times.size, count)))
     record.out[0, : 2 * problem.degrees] = problem.state[: 2 * problem.degrees]
     while True:
         stretch, ahead = _problem(current, record.steps), _ahead(times, current.time)
@@ -137,6 +142,7 @@ def _fill(record: _Record, times: Floats, event: Event, degrees: int) -> None:
     """Samples so close before an event that the stretch left them out are those of the event, moved by its rates."""
     while record.filled < times.size and times[record.filled] <= event.time:
         record.out[record.filled] = record.moved(event, float(times[record.filled]), degrees)
+        record.held[record.filled] = record.held[record.filled - 1]
         record.filled += 1
 
 
@@ -191,5 +197,6 @@ def _whole(record: _Record, times: Floats, outcome: int, reached: float, found: 
         found.steps,
         held=found.held,
         transitions=tuple(record.transitions),
+        reactions=Reactions(record.held[:count], np.zeros(count)) if record.held.size else None,
         meshes=tuple(record.meshes),
     )

@@ -9,7 +9,7 @@ import numpy as np
 from .problem import Floats
 
 GUARD_DIGITS = 3  # below the first digit in doubt
-MOST_DIGITS = 15
+MOST_DIGITS = 15  # decimals; of numbers that are all small, behind the leading zeros of the largest
 GUARD_BITS, SMALLEST_ERROR = 8, 1e-15  # the same for numbers that are rounded by bits
 EXACT = 22  # powers of ten up to this one are doubles
 WHOLE = 2.0**52  # from here on doubles are whole numbers, and without decimals
@@ -20,9 +20,9 @@ def rounded(values: Floats, errors: Floats) -> Floats:
 
     `values` has shape (samples, …), `errors` shape (samples,); returns the shape of `values`.
     """
-    decimals = _decimals(errors)
+    decimals = _decimals(errors, MOST_DIGITS + _zeros(values))
     result = np.array(values, dtype=np.float64)
-    for count in np.unique(decimals):
+    for count in np.unique(decimals[decimals <= EXACT]):
         chosen = decimals == count
         result[chosen] = _with_decimals(result[chosen], int(count))
     return result + 0.0  # no negative zero
@@ -33,7 +33,7 @@ def rounded_to_bits(values: Floats, errors: Floats) -> Floats:
 
     `values` has shape (samples, …), `errors` shape (samples,); returns the shape of `values`.
     """
-    _, exponents = np.frexp(np.maximum(np.abs(errors), SMALLEST_ERROR))
+    _, exponents = np.frexp(np.maximum(np.abs(errors), SMALLEST_ERROR * 10.0 ** -_zeros(values)))
     units = np.ldexp(1.0, exponents - GUARD_BITS).reshape(-1, *(1,) * (values.ndim - 1))
     counts = values / units
     is_many = np.abs(counts) >= WHOLE
@@ -59,10 +59,16 @@ def _within(values: Floats, decimals: int) -> Floats:
     return np.where(np.isfinite(found), found, values)
 
 
-def _decimals(errors: Floats) -> Floats:
+def _decimals(errors: Floats, most: int) -> Floats:
     with np.errstate(divide="ignore"):
         places = np.ceil(-np.log10(np.abs(errors))) + GUARD_DIGITS
-    return np.asarray(np.clip(places, 0, MOST_DIGITS))
+    return np.asarray(np.clip(places, 0, most))
+
+
+def _zeros(values: Floats) -> int:
+    """How many zeros stand behind the decimal point of the largest: 2 for 0.004, 0 from 0.1 on and for zero."""
+    largest = float(np.max(np.abs(values), initial=0.0, where=np.isfinite(values)))
+    return max(0, -math.floor(math.log10(largest)) - 1) if largest > 0.0 else 0
 
 
 def significant(values: Floats, digits: int) -> Floats:

@@ -31,6 +31,7 @@ from .system import (
 )
 
 CORRECTIONS, CLOSE = 12, 1e-9  # Newton's corrections of a state; behind one this small, relative to it, comes rounding
+GRAIN = 2.0**-52  # of the first correction: a coordinate that is zero on the constraints gets no nearer
 STALLED = 0.5  # corrections that are no smaller than this part of the one before are rounding errors, if they are small
 FIRM, MOST_KICKS = 1e-14, 50  # of positions, relative to them, what a step may leave; and its tries
 HALVINGS = 26  # of a step in which the constraints seem to turn round
@@ -82,7 +83,7 @@ def project(system: System, h: float) -> int:
         of_gaps, gap_order = system.of_gaps, system.gap_order
         weigh(system, holonomic, of_gaps)
         gap_rank, _ = factor_ranked(of_gaps, gap_order, holonomic)
-    before = np.inf
+    before, first = np.inf, np.inf
     for _ in range(CORRECTIONS):
         read_gaps(system)
         relative, absolute = 0.0, 0.0
@@ -98,9 +99,9 @@ def project(system: System, h: float) -> int:
         relative, absolute = max(relative, of_rates), max(absolute, at_least)
         if not absolute < np.inf:
             return NOT_FINITE
-        if relative <= CLOSE or (absolute >= STALLED * before and absolute <= CLOSE):
+        if relative <= CLOSE or (absolute >= STALLED * before and absolute <= CLOSE) or absolute <= GRAIN * first:
             return FINE
-        before = absolute
+        before, first = absolute, absolute if first == np.inf else first
     return NEWTON_FAILED
 
 
