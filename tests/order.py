@@ -15,6 +15,7 @@ from collections import Counter, defaultdict
 from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cache
+from math import fsum
 from pathlib import Path
 from xml.etree import ElementTree as ET
 from zlib import crc32
@@ -75,10 +76,10 @@ class Record:
 
     def by_file(self, tests: Collection[str]) -> dict[str, float]:
         """Seconds of each file in a run that takes these of its tests; a file that is not named is a short one."""
-        seconds = Counter(self.others)
+        parts = defaultdict(list, {file: [time] for file, time in self.others.items()})
         for test in tests:
-            seconds[file_of(test)] += self.long.get(test, 0.0)
-        return dict(seconds)
+            parts[file_of(test)].append(self.long.get(test, 0.0))
+        return {file: fsum(seconds) for file, seconds in parts.items()}  # the same in whatever order they come
 
 
 def file_of(test: str) -> str:
@@ -91,7 +92,7 @@ def in_turn(long: Mapping[str, float], seconds: float, place: float) -> set[str]
     The place is a share of the circle, so that every test is taken by the same share of all runs, whatever it takes,
     and all are where the seconds are enough. In the circle tests are mixed, always in the same way.
     """
-    whole = sum(long.values())
+    whole = fsum(long.values())
     begin, found = -place * whole, set()
     for test in sorted(long, key=lambda test: crc32(test.encode())):
         if begin % whole < seconds:

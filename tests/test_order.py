@@ -5,6 +5,8 @@ from __future__ import annotations
 import random
 import subprocess
 from dataclasses import dataclass
+from itertools import accumulate
+from math import fsum
 from pathlib import Path
 from xml.etree import ElementTree as ET
 
@@ -79,6 +81,19 @@ def test_each_long_test_has_its_turn_as_often_as_any_other_and_a_run_takes_its_t
         assert sum(test in taken for taken in runs) == pytest.approx(1000 * seconds / whole, abs=2)
     assert all(abs(sum(long[test] for test in taken) - seconds) <= max(long.values()) for taken in runs)
     assert in_turn(long, 1.01 * whole, draw.random()) == set(long)
+
+
+@pytest.mark.parametrize("seed", range(20))
+def test_all_workers_find_the_same_whatever_order_sets_have(seed: int) -> None:
+    """They must collect alike to the last test, and a sum of floats depends on the order of its terms."""
+    draw = random.Random(seed)
+    long = {f"tests/test_{n % 3}.py::test_{n}": round(draw.uniform(LONG, 40.0), 1) for n in range(60)}
+    others = {f"tests/test_{n}.py": 0.1 for n in range(3)}
+    mixed = draw.sample(sorted(long), len(long))
+    again = {test: long[test] for test in mixed}
+    assert Record(long, others).by_file([*long]) == Record(again, others).by_file(mixed)
+    for place in (begin / fsum(long.values()) for begin in (0.1, *accumulate(long[test] for test in sorted(long)))):
+        assert in_turn(long, 90.0, place) == in_turn(again, 90.0, place)
 
 
 def test_the_turn_is_the_commits(tmp_path: Path) -> None:
