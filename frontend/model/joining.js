@@ -4,15 +4,12 @@
  * is equivalent to another, stands alone, so that it is always clear what follows from what.
  */
 
-import { tokensOf } from "./latex.js";
-import { sidesOf } from "./linebreak.js";
+import { CALLED, MATRIX, equationsOf, isEquivalent, plain } from "./parts.js";
 
-/** @typedef {{text: string, gap: string}} Row */
-/** @typedef {{left: string, right: string, gap: string}} Part  of a row: up to its mark of alignment, and after it */
+/** @typedef {import("./parts.js").Row} Row */
+/** @typedef {import("./parts.js").Part} Part */
 /** @typedef {(latex: string) => number} Wide  in em */
 
-const RELATION = /^(?:\s|\\[,;:!]|\{\}|\\htmlClass\{[^}]*\}\{)*(?:[=<>]|\\(?:approx|equiv|neq|le|ge|to)(?![a-zA-Z]))/;
-const ARROW = /^(?:\s|\\[,;:!])*\\(?:Longleftrightarrow|Rightarrow)(?:\s|\\[,;:!])*$/;
 /** Between two equations, as LaTeX and in em. */
 const [BETWEEN, APART] = [" \\qquad ", 2];
 /** A row beside another has gaps at its relation. */
@@ -22,22 +19,6 @@ const RELATED = 0.3;
 const SMALL_GAP = " \\\\[0.1em] ";
 /** A fraction of numbers, which is as easily read when it is small. */
 const NUMERIC = /\\frac(?=\{\d+\}\{\d+\})/g;
-/** A matrix by itself, behind what it is equal to, and what it is called. */
-const MATRIX = /^=\s*(\\begin\{bmatrix\}(?:(?!\\begin\{bmatrix\})[\s\S])*\\end\{bmatrix\})$/;
-const CALLED = /^\\mathbf [A-Z](?: _ \w)?$/;
-
-/** @param {Row} row @returns {Part} */
-function partOf({ text, gap }) {
-  const [left, right] = sidesOf(text).map((side) => side.replace(/&$/, "").trim());
-  return { left, right, gap };
-}
-
-/** @param {Part} part */
-const isEquivalent = ({ left }) => ARROW.test(left);
-
-/** Whether a row says more of the equation above it. @param {Part} part */
-const goesOn = (part) => isEquivalent(part) || (!part.left && RELATION.test(part.right));
-
 /**
  * A matrix that has been written out under its name is called by it from there on; where that leaves a row that says what
  * the one above it says, it is left out.
@@ -60,12 +41,6 @@ function calledByName(parts) {
       : [{ ...part, right }];
   });
 }
-
-/** What is seen of a formula, without its classes, braces and gaps. @param {string} latex */
-const plain = (latex) =>
-  tokensOf(latex.replace(/\\htmlClass\{[^}]*\}/g, ""))
-    .filter((token) => /[^\s{}]/.test(token))
-    .join(" ");
 
 /** Two rows as one. @param {Part} one @param {Part} next @param {string} between @returns {Part} */
 const beside = (one, next, between) => ({
@@ -93,24 +68,14 @@ function inRows(parts, room, between, apart, wide) {
   return rows;
 }
 
-/** Equations, each with all that it is equal or equivalent to. @param {Part[]} parts */
-function equationsOf(parts) {
-  /** @type {Part[][]} */
-  const equations = [];
-  for (const part of parts) {
-    if (equations.length && goesOn(part)) equations[equations.length - 1].push(part);
-    else equations.push([part]);
-  }
-  return equations;
-}
-
 /**
  * The rows of a formula, joined as far as they fit in `room` em.
- * @param {readonly Row[]} given @param {number} room @param {(latex: string) => {width: number}} measure @returns {Row[]}
+ * @param {readonly Part[]} given @param {number} room @param {(latex: string) => {width: number}} measure @returns {Row[]}
  */
 export function joinedRows(given, room, measure) {
   const wide = (/** @type {string} */ latex) => measure(latex).width;
-  const parts = calledByName(given.map(({ text, gap }) => partOf({ text: text.replace(NUMERIC, "\\tfrac"), gap })));
+  const small = (/** @type {string} */ side) => side.replace(NUMERIC, "\\tfrac");
+  const parts = calledByName(given.map((part) => ({ ...part, left: small(part.left), right: small(part.right) })));
   const right = room - Math.max(...parts.map(({ left }) => wide(left)));
   /** @type {Part[]} */
   const rows = [];

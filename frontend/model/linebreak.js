@@ -33,7 +33,7 @@ export function rowsOf(latex) {
 }
 
 /** A sign that joins two terms, not one that leads a term or follows a relation. @param {string} token @param {string} before */
-function joins(token, before) {
+export function joins(token, before) {
   const last = before.trim().split(/\s+/).at(-1) ?? "";
   return /^[+-]$/.test(token) && last !== "" && !RELATION.test(last) && !/[+([-]$/.test(last);
 }

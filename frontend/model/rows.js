@@ -3,10 +3,19 @@
 import { brokenRows, rowsOf, sidesOf } from "./linebreak.js";
 import { joinedRows } from "./joining.js";
 import { sizeOf } from "./measure.js";
+import { partOf } from "./parts.js";
+import { abbreviated } from "./shorthand.js";
 
 /** @typedef {{left: string, right: string, above: number, below: number}} Row  above and below the baseline, in em */
 /** @typedef {{rows: Row[], part: number}} Plan  part: of their size, at which the rows fit */
+/**
+ * @typedef {{bearable: number, smallest: number, close?: boolean, brief?: boolean}} Form  parts of their size: rows are
+ *   rather broken than smaller than is bearable, and again where they are still smaller than the smallest; close: rows
+ *   that have room in one are one; brief: in shorthand, too
+ */
 
+/** Plans whose letters differ by less are as large. */
+const ALIKE = 1.01;
 /** Broken rows are to fit at this size. */
 const COMFORTABLE = 0.85;
 /** What cannot be broken stays wider: then all is broken into shorter rows. */
@@ -54,6 +63,10 @@ export function layoutOf(latex) {
   const wide = (/** @type {string} */ text) => measure(text).width;
   /** @type {Map<string, {rows: ReturnType<typeof rowOf>[], wide: number}>} */
   const measured = new Map();
+  const parts = given.map(partOf);
+  /** @type {import("./parts.js").Part[][] | null} */
+  let short = null;
+  const inShorthand = () => (short ??= abbreviated(parts));
 
   /** @param {import("./joining.js").Row[]} rows @param {number} most  em that each may be wide at most @param {boolean} close */
   function broken(rows, most, close) {
@@ -67,32 +80,43 @@ export function layoutOf(latex) {
     return made;
   }
 
+  /**
+   * Rows in a place `room` em wide, broken where they would become too small.
+   * @param {import("./joining.js").Row[]} start @param {number} room @param {Form} form @returns {Plan}
+   */
+  function fittedRows(start, room, { bearable, smallest, close = false }) {
+    const fitted = (/** @type {number} */ most) => {
+      const { rows, wide: needed } = broken(start, most, close);
+      return { rows, part: Math.min(1, room / (needed * MARGIN)) };
+    };
+    let best = fitted(Infinity);
+    if (best.part >= bearable) return best;
+    const most = room / (MARGIN * Math.max(bearable, COMFORTABLE));
+    for (const one of SHARES) {
+      const next = fitted(onGrid(one * most));
+      if (next.part > best.part) best = next;
+      if (best.part >= smallest) break;
+    }
+    return best;
+  }
+
   return {
-    /**
-     * Its rows in a place `room` em wide; they are broken where they would become too small.
-     * @param {number} room
-     * @param {{bearable: number, smallest: number, close?: boolean}} form  parts of their size: rows are rather broken than
-     *   smaller than is bearable, and again where they are still smaller than the smallest; close: rows that have room in one are one
-     * @returns {Plan}
-     */
-    planned(room, { bearable, smallest, close = false }) {
-      const start = close ? joinedRows(given, room / MARGIN, measure) : given;
-      const fitted = (/** @type {number} */ most) => {
-        const { rows, wide: needed } = broken(start, most, close);
-        return { rows, part: Math.min(1, room / (needed * MARGIN)) };
-      };
-      let best = fitted(Infinity);
-      if (best.part >= bearable) return best;
-      const most = room / (MARGIN * Math.max(bearable, COMFORTABLE));
-      for (const one of SHARES) {
-        const next = fitted(onGrid(one * most));
-        if (next.part > best.part) best = next;
-        if (best.part >= smallest) break;
-      }
-      return best;
+    /** Its rows in a place `room` em wide. @param {number} room @param {Form} form @returns {Plan} */
+    planned(room, form) {
+      const starts = form.brief ? inShorthand() : [parts];
+      const plans = (form.close ? starts.map((start) => joinedRows(start, room / MARGIN, measure)) : [given]).map(
+        (start) => fittedRows(start, room, form),
+      );
+      return plans.reduce((best, next) => (roomier(next, best) ? next : best));
     },
   };
 }
 
-/** The rows of a formula in one place. @param {string} latex @param {number} room @param {Parameters<ReturnType<typeof layoutOf>["planned"]>[1]} form */
+/** Whether one plan makes larger letters than another, or is less high. @param {Plan} one @param {Plan} other */
+function roomier(one, other) {
+  const height = (/** @type {Plan} */ { rows }) => rows.reduce((sum, { above, below }) => sum + above + below, 0);
+  return one.part > other.part * ALIKE || (one.part >= other.part / ALIKE && height(one) < height(other));
+}
+
+/** The rows of a formula in one place. @param {string} latex @param {number} room @param {Form} form */
 export const planned = (latex, room, form) => layoutOf(latex).planned(room, form);

@@ -1,7 +1,7 @@
 /** Display formulas at the sizes at which they fit their columns; the long ones in rows, which are fetched when there is one. */
 
 import { rowsOf } from "../model/linebreak.js";
-import { bearableIn, closeIn, resize, typeset } from "./typesetting.js";
+import { bearableIn, resize, rowsIn, typeset } from "./typesetting.js";
 
 /** LaTeX of more letters is typeset row by row. */
 const LONG = 350;
@@ -91,7 +91,8 @@ export class Fitting {
 
   /** @param {HTMLElement} element */
   #sharesRows(element) {
-    return rowsOf(this.#sources.get(element) ?? "").length > 1 && closeIn(getComputedStyle(element));
+    const { close, brief } = rowsIn(getComputedStyle(element));
+    return brief || (close && rowsOf(this.#sources.get(element) ?? "").length > 1);
   }
 
   /** A formula of a long step has been scrolled to. @param {HTMLElement} target */

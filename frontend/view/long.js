@@ -1,7 +1,7 @@
 /** A long formula: its rows, and what is said of it. */
 
 import { layoutOf } from "../model/rows.js";
-import { SMALLEST, bearableIn, closeIn, isNamed, resize, typeset } from "./typesetting.js";
+import { SMALLEST, bearableIn, isNamed, resize, rowsIn, typeset } from "./typesetting.js";
 
 /** @typedef {{cell: HTMLElement, latex: string}} Due  a cell, and what is to stand in it */
 
@@ -30,10 +30,10 @@ const shrink = (element, part) => resize(element, Math.floor(part * 100) / 100);
 export class Long {
   latex = "";
   #layout = layoutOf("");
-  /** For which it was planned: pixels, em, and whether rows share rows. */
+  /** For which it was planned: pixels, em, and whether rows share rows, in shorthand or not. */
   width = 0;
   #room = 0;
-  #close = false;
+  #form = { close: false, brief: false };
   #grid = made("div", "rows");
   #said = made("span", "katex");
   /** What is missing yet. @type {Due[]} */
@@ -62,10 +62,11 @@ export class Long {
     if (!width) return false;
     const style = getComputedStyle(element);
     const room = roomOf(element, style);
-    const close = closeIn(style);
-    if (this.width === width && Math.abs(this.#room - room) < 0.01 && this.#close === close) return false;
-    [this.#room, this.#close] = [room, close];
-    const { rows, part } = this.#layout.planned(room, { bearable: bearableIn(style), smallest: SMALLEST, close });
+    const form = rowsIn(style);
+    const same = this.#form.close === form.close && this.#form.brief === form.brief;
+    if (this.width === width && Math.abs(this.#room - room) < 0.01 && same) return false;
+    [this.#room, this.#form] = [room, form];
+    const { rows, part } = this.#layout.planned(room, { bearable: bearableIn(style), smallest: SMALLEST, ...form });
     this.width = width;
     shrink(element, part);
     this.#place(rows);

@@ -34,8 +34,11 @@ export function typeset(element, latex, display, output = isNamed(element) ? "ht
 /** How small a formula may become where it stands. @param {CSSStyleDeclaration} style */
 export const bearableIn = (style) => Number(style.getPropertyValue("--bearable")) || BEARABLE;
 
-/** Whether rows that have room in one row share it where the formula stands. @param {CSSStyleDeclaration} style */
-export const closeIn = (style) => style.getPropertyValue("--rows").trim() === "close";
+/** Whether rows that have room in one row share it where the formula stands, and whether it is in shorthand. @param {CSSStyleDeclaration} style */
+export function rowsIn(style) {
+  const asked = style.getPropertyValue("--rows").trim();
+  return { close: asked === "close" || asked === "brief", brief: asked === "brief" };
+}
 
 /** Sets a formula to a part of its size; below the smallest one it scrolls. @param {HTMLElement} element @param {number} part */
 export function resize(element, part) {

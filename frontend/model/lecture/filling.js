@@ -19,6 +19,8 @@ const FINER = 0.97;
 const JUST = [1.04, 1.015, 1.002];
 /** Sizes that are as good as the same. */
 const SAME = 0.99;
+/** Shorthand is worth it where it makes letters larger by this. */
+const WORTH = 1.05;
 /** Part of the shorter side of the screen from which on letters are read from the last row. */
 const FAR = 0.05;
 /** KaTeX sets formulas larger than text, and there is a gap between their rows and around them, in em. */
@@ -29,7 +31,7 @@ const AROUND = 1.1;
 /** @typedef {{latex: string, share: number, indent?: number}} Natural  share: of the size of the result that it has; indent: pixels at its side */
 /** @typedef {{width: number, height: number}} Pane  what is left for formulas, in pixels */
 /** @typedef {Natural & {layout: ReturnType<typeof layoutOf>}} Formula */
-/** @typedef {{size: number, reached: number, far: boolean, close: boolean}} Filling  pixels that are asked for, and that are reached, 0 where they do not fit; far: read from the last row; close: rows share rows */
+/** @typedef {{size: number, reached: number, far: boolean, close: boolean, brief: boolean}} Filling  pixels that are asked for, and that are reached, 0 where they do not fit; far: read from the last row; close: rows share rows; brief: in shorthand */
 
 /** What is worked out once for all sizes. @param {Natural} natural @returns {Formula} */
 export const formulaOf = (natural) => ({ ...natural, layout: layoutOf(natural.latex) });
@@ -39,14 +41,15 @@ export const bounds = (screen) => ({ largest: LARGEST * screen, least: Math.max(
 
 /**
  * How high a formula is at a size, and at which part of it all of its rows fit.
- * @param {Formula} formula @param {number} size @param {number} width @param {boolean} [close]
+ * @param {Formula} formula @param {number} size @param {number} width @param {boolean} [close] @param {boolean} [brief]
  */
-export function laidOut({ layout, share, indent = 0 }, size, width, close = false) {
+export function laidOut({ layout, share, indent = 0 }, size, width, close = false, brief = false) {
   const own = size * share;
   const { rows, part } = layout.planned((width - indent) / (own * LARGER), {
     bearable: BEARABLE,
     smallest: SMALLEST,
     close,
+    brief,
   });
   const gap = close ? GAP.close : GAP.open;
   const em = rows.reduce((sum, { above, below }) => sum + above + below + gap, -gap);
@@ -61,17 +64,17 @@ function sizesOn(screen) {
   return [...steps, ...JUST.map((part) => (part * FAR * screen) / LARGER)].sort((a, b) => b - a);
 }
 
-/** @param {readonly Formula[]} formulas @param {Pane} pane @param {number} screen @param {boolean} close @returns {Filling} */
-function filled(formulas, pane, screen, close) {
+/** @param {readonly Formula[]} formulas @param {Pane} pane @param {number} screen @param {boolean} close @param {boolean} [brief] @returns {Filling} */
+function filled(formulas, pane, screen, close, brief = false) {
   let best = { size: bounds(screen).least, reached: 0 };
   for (const size of sizesOn(screen)) {
     if (size <= SAME * best.reached) break;
-    const set = formulas.map((formula) => laidOut(formula, size, pane.width, close));
+    const set = formulas.map((formula) => laidOut(formula, size, pane.width, close, brief));
     if (set.reduce((sum, { height }) => sum + height, 0) > FULL * pane.height) continue;
     const reached = size * (set[0]?.part ?? 1);
     if (reached >= SAME * best.reached) best = { size, reached: Math.max(reached, best.reached) };
   }
-  return { ...best, far: LARGER * best.reached >= FAR * screen, close };
+  return { ...best, far: LARGER * best.reached >= FAR * screen, close, brief };
 }
 
 /** @template {Filling} T @param {T} one @param {T} other @returns {T} the one that is larger, the first if they are about the same, and the second if neither fits */
@@ -91,3 +94,10 @@ export function filling(formulas, pane, screen) {
   const open = filled(formulas, pane, screen, false);
   return open.far ? open : better(open, filled(formulas, pane, screen, true));
 }
+
+/** The same in shorthand. @param {readonly Formula[]} formulas @param {Pane} pane @param {number} screen */
+export const fillingBriefly = (formulas, pane, screen) => filled(formulas, pane, screen, true, true);
+
+/** What is in shorthand only where that is worth it. @template {Filling} T @param {T} written @param {T} brief @returns {T} */
+export const worthwhile = (written, brief) =>
+  brief.reached >= WORTH * written.reached || (brief.far && !written.far) ? brief : written;

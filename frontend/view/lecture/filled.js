@@ -1,11 +1,11 @@
 /** Gives the formulas of a slide the size at which they fill it, and again whenever there is more or less room. */
 
-import { better, bounds, filling, formulaOf } from "../../model/lecture/filling.js";
+import { better, bounds, filling, fillingBriefly, formulaOf, worthwhile } from "../../model/lecture/filling.js";
 import { refit } from "../formula.js";
 
 /** @typedef {{latex: string, share: number, depth: number}} Shown  depth: of a substep within its step */
 
-/** @typedef {{dense: string, place: string, close: boolean}} Arranged */
+/** @typedef {{dense: string, place: string, close: boolean, brief: boolean}} Arranged */
 
 /** What is estimated may be a little off: then all of it becomes smaller by as much as it is too high, and at least by this, so many times. */
 const SMALLER = 0.99;
@@ -85,26 +85,29 @@ export function createFilled(root) {
   /** What is not formula makes room for them, as far as it must. @param {HTMLElement} slide @param {HTMLElement} scroll */
   function roomiest(slide, scroll) {
     const natural = shown.map(naturalOf).map(formulaOf);
-    const arrange = (/** @type {Arranged} */ { dense, place, close }) => {
-      Object.assign(slide.dataset, { dense, rows: close ? "close" : "" });
+    const arrange = (/** @type {Arranged} */ { dense, place, close, brief }) => {
+      Object.assign(slide.dataset, { dense, rows: brief ? "brief" : close ? "close" : "" });
       /** @type {HTMLElement} */ (slide.parentElement).dataset.place = place;
       slide.style.setProperty("--corner", `${cornerOf(slide, scroll)}px`);
     };
-    const filledIn = (/** @type {string} */ dense, /** @type {string} */ place) => {
-      arrange({ dense, place, close: false });
-      return { ...filling(natural, measured(scroll), shorter()), dense, place };
-    };
-    /** @type {ReturnType<typeof filledIn> | null} */
-    let best = null;
-    for (const dense of DENSER) {
-      for (const place of placesOn()) {
-        const found = filledIn(dense, place);
-        if (best?.dense === dense && !cornerOf(slide, scroll)) break;
-        best = best ? better(best, found) : found;
-        if (best.far) break;
+    /** @param {typeof filling} fill  with or without shorthand */
+    const bestOf = (fill) => {
+      /** @type {(ReturnType<typeof filling> & {dense: string, place: string}) | null} */
+      let best = null;
+      for (const dense of DENSER) {
+        for (const place of placesOn()) {
+          arrange({ dense, place, close: false, brief: false });
+          const found = { ...fill(natural, measured(scroll), shorter()), dense, place };
+          if (best?.dense === dense && !cornerOf(slide, scroll)) break;
+          best = best ? better(best, found) : found;
+          if (best.far) return best;
+        }
       }
-      if (best?.far) break;
-    }
+      return best;
+    };
+    const written = bestOf(filling);
+    const brief = written && !written.far ? bestOf(fillingBriefly) : null;
+    const best = written && brief ? worthwhile(written, brief) : written;
     if (best) arrange(best);
     return best?.size ?? 0;
   }
