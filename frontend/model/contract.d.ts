@@ -3005,10 +3005,10 @@ export interface components {
         Energy: {
             kinetic: components["schemas"]["Column"];
             potential: components["schemas"]["Column"];
-            /** @description of all that is not in kinetic + potential, in watt */
-            power: components["schemas"]["Column"];
-            /** @description the power's integral over the time */
-            work: components["schemas"]["Column"];
+            /** @description of all that is not in kinetic + potential, in watt; where `power` is included */
+            power?: components["schemas"]["Column"] | null;
+            /** @description the power's integral over the time; where `power` is included */
+            work?: components["schemas"]["Column"] | null;
             /** @description constant when all is right */
             balance: components["schemas"]["Column"];
             /**
@@ -7507,10 +7507,10 @@ export interface components {
             step?: number | null;
             /**
              * Include
-             * @description the parts wanted, of coordinates, rates, positions, loads, multipliers, energy, error; all if empty
+             * @description the parts wanted, of coordinates, rates, positions, loads, multipliers, energy, power, error; all if empty
              * @example []
              */
-            include?: ("coordinates" | "rates" | "positions" | "loads" | "multipliers" | "energy" | "error")[];
+            include?: ("coordinates" | "rates" | "positions" | "loads" | "multipliers" | "energy" | "power" | "error")[];
             /**
              * Release
              * @description lengths, and coordinates guided or frozen, whose reactions are asked for

@@ -240,7 +240,7 @@ const GREEK = new Set(["lambda", "mu", "nu", "kappa", "sigma", "tau", "rho", "xi
 function energyRow({ t: times, energy }, { hidden }) {
   if (!energy) return [];
   const curve = (
-    /** @type {keyof typeof energy} */ key,
+    /** @type {"kinetic" | "potential" | "balance"} */ key,
     /** @type {string} */ latex,
     /** @type {string} */ className,
     name = latex,

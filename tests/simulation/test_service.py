@@ -123,6 +123,13 @@ def test_power_is_the_rate_of_the_work() -> None:
     assert set(ask(scene="pendulum")["energy"]["power"]) == {0.0}
 
 
+def test_power_is_told_to_those_who_ask_for_it() -> None:
+    """It comes with the energies that it balances; who wants these alone gets these alone."""
+    alone, whole = (ask(scene="guided-pendulum", include=[part])["energy"] for part in ("energy", "power"))
+    assert whole.keys() - alone.keys() == {"power", "work"}
+    assert {name: whole[name] for name in alone} == alone
+
+
 def test_guided_coordinate_is_shown_like_the_others() -> None:
     answer = ask(scene="guided-pendulum")
     assert list(answer["coordinates"]) == ["y", "phi"]
@@ -229,7 +236,7 @@ def error(code: str, pointer: str, **parameters: object) -> Problem:
 
 
 KNOWN_METHODS = ", ".join(method_ids())
-PARTS = "coordinates, rates, positions, loads, multipliers, energy, error"
+PARTS = "coordinates, rates, positions, loads, multipliers, energy, power, error"
 HOSTILE = [
     pytest.param({"t_end": None}, RequestError, error("missing-field", "/t_end", field="t_end"), id="no end"),
     pytest.param({"t_end": math.nan}, RequestError, error("request-not-finite", "/t_end"), id="NaN"),

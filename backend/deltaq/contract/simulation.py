@@ -14,7 +14,7 @@ from .base import Answer, AskedLanguage, Name, NotAbove, Released, SceneWithInit
 LARGEST_SPAN = 1e5  # seconds
 SHORTEST = 1e-250  # seconds; parts of less are no longer different numbers
 USUAL_TOLERANCE = 1e-6
-Part = Literal["coordinates", "rates", "positions", "loads", "multipliers", "energy", "error"]
+Part = Literal["coordinates", "rates", "positions", "loads", "multipliers", "energy", "power", "error"]
 PARTS: tuple[Part, ...] = get_args(Part)
 Written = Literal["numbers", "base64", "planes"]
 COLUMNS: tuple[Written, ...] = get_args(Written)
@@ -80,8 +80,10 @@ class Energy(Answer):
 
     kinetic: Column
     potential: Column
-    power: Column = Field(description="of all that is not in kinetic + potential, in watt")
-    work: Column = Field(description="the power's integral over the time")
+    power: Column | None = Field(
+        None, description="of all that is not in kinetic + potential, in watt; where `power` is included"
+    )
+    work: Column | None = Field(None, description="the power's integral over the time; where `power` is included")
     balance: Column = Field(description="constant when all is right")
     drift: float = Field(description="largest departure of the balance from its start")
 

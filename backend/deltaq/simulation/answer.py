@@ -38,8 +38,8 @@ def answer(
     errors = trajectory.estimate.errors if trajectory.estimate else np.full(len(trajectory.times), UNKNOWN_ERROR)
     column = WRITERS[request.columns]
     parts: Document = _curves(request, problem, trajectory, seen, errors, column)
-    if "energy" in request.include:
-        parts["energy"] = _energy(problem, trajectory, seen, errors, column)
+    if not request.include.isdisjoint({"energy", "power"}):
+        parts["energy"] = _energy(request, problem, trajectory, seen, errors)
     if "error" in request.include:
         parts["error"] = _error(problem, trajectory, request.tolerance)
     if problem.is_constrained:
@@ -128,18 +128,20 @@ def _transition(found: Transition) -> Document:
     }
 
 
-def _energy(problem: Problem, trajectory: Trajectory, seen: Observation, errors: Floats, column: Writer) -> Document:
-    """Energies, power and work of what is not in E + V, and the balance E + V − ∫P dt, constant when all is right."""
-    states = np.hstack([trajectory.values, trajectory.rates])
+def _energy(request: Request, problem: Problem, trajectory: Trajectory, seen: Observation, errors: Floats) -> Document:
+    """Energies and the balance E + V − ∫P dt, constant when all is right; P and the work by itself if asked for."""
+    column, states = WRITERS[request.columns], np.hstack([trajectory.values, trajectory.rates])
     balance = seen.kinetic + seen.potential - trajectory.work
     scale = float(np.max(np.abs(seen.kinetic) + np.abs(seen.potential), initial=0.0))
     # Second order in the error where the energy is flat, hence more digits than the error itself supports.
     doubt = np.maximum(1e-3 * errors, 1e-14) * max(scale, 1e-300)
-    watts = power(problem, trajectory.times, states, trajectory.stretches)
-    energies = _together([seen.kinetic, seen.potential, watts, trajectory.work, balance], doubt, column)
-    named = zip(("kinetic", "potential", "power", "work", "balance"), energies, strict=True)
+    energies = {"kinetic": seen.kinetic, "potential": seen.potential, "balance": balance}
+    if "power" in request.include:
+        energies["power"] = power(problem, trajectory.times, states, trajectory.stretches)
+        energies["work"] = trajectory.work
+    shorter = _together(list(energies.values()), doubt, column)
     return {
-        **{name: column.write(energy) for name, energy in named},
+        **{name: column.write(energy) for name, energy in zip(energies, shorter, strict=True)},
         "drift": short(float(np.max(np.abs(balance - balance[:1]), initial=0.0))),  # no sample where it cannot start
     }
 

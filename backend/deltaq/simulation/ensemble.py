@@ -160,9 +160,7 @@ def in_lanes(
         constants,
         np.ascontiguousarray(times),
         np.full((count, len(times), jet.shape.width), np.nan),
-        np.zeros(count, dtype=np.int64),
-        np.zeros(count, dtype=np.int64),
-        np.zeros(count, dtype=np.int64),
+        *(np.zeros(count, dtype=np.int64) for _ in range(3)),
     )
     conditions, code = len(recurrences.conditions), jet.code.addresses
     sizes = conditions, jet.shape.components, constants.shape[1], jet.work, jet.shape.lanes
