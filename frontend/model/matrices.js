@@ -59,16 +59,27 @@ export function named(rows, most, wide, sidesOf) {
 }
 
 /**
- * A term whose columns fit: their entries go on below.
+ * A term whose columns fit: their entries go on below, those of the widest column first, and of others only where that
+ * is not enough.
  * @param {string} term @param {number} most em @param {import("./linebreak.js").Wide} wide @param {(entry: string, most: number) => string[]} linesOf
  */
 export function narrowed(term, most, wide, linesOf) {
-  const all = wide(term);
-  if (all <= most) return term;
-  return withMatrices(term, (matrix, entries) => {
-    if (entries.some((row) => row.length > 1)) return matrix;
-    const rows = entries.map(([entry]) => linesOf(entry, most - all + wide(matrix)));
-    if (rows.every((lines) => lines.length === 1)) return matrix;
-    return `\\begin{bmatrix*}[l] ${rows.map((lines) => lines.join(" \\\\ \\quad {}")).join(" \\\\[0.6em] ")} \\end{bmatrix*}`;
+  /** @type {{matrix: string, entries: string[][], size: number}[]} */
+  const columns = [];
+  withMatrices(term, (matrix, entries) => {
+    if (entries.every((row) => row.length === 1)) columns.push({ matrix, entries, size: wide(matrix) });
+    return matrix;
   });
+  let found = term;
+  for (const { matrix, entries, size } of columns.sort((one, other) => other.size - one.size)) {
+    const all = wide(found);
+    if (all <= most) return found;
+    const rows = entries.map(([entry]) => linesOf(entry, most - all + size));
+    if (rows.some((lines) => lines.length > 1)) found = found.replace(matrix, () => column(rows));
+  }
+  return found;
 }
+
+/** A column whose entries have lines. @param {string[][]} rows */
+const column = (rows) =>
+  `\\begin{bmatrix*}[l] ${rows.map((lines) => lines.join(" \\\\ \\quad {}")).join(" \\\\[0.6em] ")} \\end{bmatrix*}`;

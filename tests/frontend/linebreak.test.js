@@ -56,6 +56,16 @@ for (const [name, latex, part, wanted] of /** @type {[string, string, number, st
   });
 }
 
+test("of two columns that are too wide together, the wider one goes on below, and the other stays whole", () => {
+  const right = "\\begin{bmatrix} 0 \\\\ ffff + gggg \\end{bmatrix}";
+  const found = broken(
+    `\\begin{aligned}& \\begin{bmatrix} aaaa + bbbb + cccc + dddd \\\\ e \\end{bmatrix} = ${right}\\end{aligned}`,
+    0.8,
+  );
+  assert.match(found, /bmatrix\*/);
+  assert.ok(found.includes(right), found);
+});
+
 test("a matrix without a name, or of short entries, is one thing", () => {
   const matrix = "\\begin{aligned}M &= \\begin{bmatrix} a + b & c \\\\ c & d - e \\end{bmatrix}\\end{aligned}";
   assert.equal(squeezed(broken(matrix, 0.2)), squeezed(matrix));

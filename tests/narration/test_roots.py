@@ -151,3 +151,13 @@ def test_results_do_without_letters() -> None:
     texts = [one[form] for one in answer["result"]["equations"] for form in ("plain", "latex")]
     assert not any(re.search(r"(?<!\w)s(?![\w_])", text) for text in texts)
     assert all(r"sqrt" in text for text in texts)
+
+
+@pytest.mark.parametrize("scene", ["double-pendulum-by-rods", "magnetic-pendulum"])
+def test_one_root_has_one_letter_however_it_is_written(scene: str) -> None:
+    """√((x₂ − x₁)² + …) and √((x₁ − x₂)² + …) are one length: no two letters of a step have the same value."""
+    told = [one for step in steps(scene).values() for one in [step["where"]] if one]
+    assert told
+    for where in told:
+        values = {one["symbol"]: sp.expand(sp.sympify(one["plain"].replace("^", "**")) ** 2) for one in where}
+        assert len(set(values.values())) == len(values), values

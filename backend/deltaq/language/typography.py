@@ -68,10 +68,15 @@ class Typography:
         return _decorated(kind, known.typeset if known else latex_of(base))
 
 
+def dotted(letter: str, accent: str = _ACCENTS[1]) -> str:
+    """LaTeX of a rate: the dot stands above the letter, not above its index."""
+    head, underscore, index = letter.partition("_")
+    return f"{accent}{{{head}}}{underscore}{index}"
+
+
 def _decorated(kind: int, letter: str) -> str:
     if kind in _ACCENTS:
-        head, underscore, index = letter.partition("_")
-        return f"{_ACCENTS[kind]}{{{head}}}{underscore}{index}"
+        return dotted(letter, _ACCENTS[kind])
     if kind == 4:
         return rf"\mathrm{{d}}{letter}"
     return rf"\delta {_decorated(kind - 5, letter)}" if kind >= 5 else letter

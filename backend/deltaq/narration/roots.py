@@ -51,10 +51,13 @@ def named_roots(
     """Letters for the roots that recur in a step; those that are known from chapters before keep theirs."""
     walked = (one for chapter in chapters for step in chapter.steps for one in step.walk())
     steps = {step.id: found for step in walked if (found := _times_written(step, notation))}
-    recurring = dict.fromkeys(base for found in steps.values() for base in found if _recurs(found, base))
-    new = [base for base in recurring if base not in known]
+    called = {_content(base): letter for base, letter in known.items()}
+    recurring = dict.fromkeys(_content(base) for found in steps.values() for base in found if _recurs(found, base))
+    new = [content for content in recurring if content not in called]
     names = _letters(len(new), notation.typography.names, notation, frozenset(known.values()))
-    letters = {**known, **dict(zip(new, names, strict=False))}
+    called |= dict(zip(new, names, strict=False))
+    written = dict.fromkeys(base for found in steps.values() for base in found if _content(base) in called)
+    letters = {**known, **{base: called[_content(base)] for base in written}}
     return Roots(letters, {name: tuple(_used(found, letters)) for name, found in steps.items()})
 
 
@@ -67,7 +70,13 @@ def _used(times: Mapping[sp.Expr, int], letters: Mapping[sp.Expr, str]) -> Itera
 
 def _recurs(times: Mapping[sp.Expr, int], base: sp.Expr) -> bool:
     """Whether a step is shorter with a letter and the line that says what it is."""
-    return (times[base] - 1) * _length(base) > DEFINITION
+    count = sum(number for other, number in times.items() if _content(other) == _content(base))
+    return (count - 1) * _length(base) > DEFINITION
+
+
+def _content(base: sp.Expr) -> sp.Expr:
+    """What two ways to write a root share: (x₁ − x₂)² and (x₂ − x₁)² are one."""
+    return base.expand()
 
 
 def _times_written(step: Step, notation: Notation) -> dict[sp.Expr, int]:
@@ -113,5 +122,6 @@ def _letters(count: int, names: Names, notation: Notation, known: frozenset[str]
 
 
 def explained(letters: Mapping[sp.Expr, str]) -> Iterator[tuple[sp.Symbol, sp.Expr]]:
-    """Each letter as a symbol, and the root that it stands for."""
-    return ((sp.Symbol(letter, real=True), sp.sqrt(base)) for base, letter in letters.items())
+    """Each letter as a symbol, and the root that it stands for, as it is written first."""
+    first = {letter: base for base, letter in list(letters.items())[::-1]}
+    return ((sp.Symbol(letter, real=True), sp.sqrt(first[letter])) for letter in dict.fromkeys(letters.values()))

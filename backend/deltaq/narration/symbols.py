@@ -11,6 +11,7 @@ from typing import Protocol
 from ..derivation.formula import Quantity
 from ..derivation.rules.position import UNGUIDED
 from ..language.memory import cached_method
+from ..language.typography import dotted
 from ..mechanics.loads.spring import Spring
 from ..mechanics.scene import Scene
 from .catalog import text
@@ -49,7 +50,7 @@ SYMBOLS: Mapping[str, tuple[str, str]] = {
     "constraint-impulse": (r"\Lambda{of}", "constraint-{name}"),
     "momentum-jump": (r"\Delta p_{{{i}}}", ""),
     "momentum-behind": ("p_{{{i}}}^{{+}}", ""),
-    "rate-jump": (r"\Delta\dot{{{q}}}", ""),
+    "rate-jump": (r"\Delta{rate}", ""),
     "impact-loss": (r"E^{{-}} - E^{{+}}", ""),
     "holding-force": ("R^{{h}}{of}", "load-{name}"),
     "largest-holding-force": ("F^{{0}}{of}", "load-{name}"),
@@ -150,6 +151,7 @@ class QuantitySymbols:
             of=self._index(quantity),
             i=self._colored(quantity.of, self.index(quantity.of)),
             q=self._colored(quantity.of, self.coordinate_latex.get(quantity.of, "")),
+            rate=self._colored(quantity.of, dotted(self.coordinate_latex.get(quantity.of, ""))),
             part=f"^{{{self._word(quantity.part)}}}" if quantity.part else "",
         )
         named = css.format(name=quantity.of) if quantity.of or "{" not in css else ""
