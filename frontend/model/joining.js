@@ -4,6 +4,7 @@
  * is equivalent to another, stands alone, so that it is always clear what follows from what.
  */
 
+import { isHeavy } from "./linebreak.js";
 import { CALLED, MATRIX, equationsOf, isEquivalent, plain } from "./parts.js";
 
 /** @typedef {import("./parts.js").Row} Row */
@@ -76,7 +77,9 @@ export function joinedRows(given, room, measure) {
   const wide = (/** @type {string} */ latex) => measure(latex).width;
   const small = (/** @type {string} */ side) => side.replace(NUMERIC, "\\tfrac");
   const parts = calledByName(given.map((part) => ({ ...part, left: small(part.left), right: small(part.right) })));
-  const right = room - Math.max(...parts.map(({ left }) => wide(left)));
+  // Heavy left sides will have rows of their own.
+  const lefts = parts.map(({ left }) => wide(left)).filter((left) => !isHeavy(left, room));
+  const right = room - Math.max(0, ...lefts);
   /** @type {Part[]} */
   const rows = [];
   /** @type {Part[]} */

@@ -90,12 +90,17 @@ export function sidesOf(row) {
 /** The left side of a row, without its mark. @param {string} row */
 const leftOf = (row) => sidesOf(row)[0].replace(/&\s*$/, "").trim();
 
+/** Whether a left side of some em would take too much of rows of `most` em. @param {number} left @param {number} most */
+export const isHeavy = (left, most) => left > Math.max(SHORT, HEAVY * most);
+
 /** @param {{text: string, gap: string}[]} rows @param {number} most @param {Wide} wide */
 function hung(rows, most, wide) {
-  const heaviest = Math.max(...rows.map(({ text }) => wide(leftOf(text))));
-  if (heaviest <= Math.max(SHORT, HEAVY * most)) return rows;
+  if (!isHeavy(Math.max(...rows.map(({ text }) => wide(leftOf(text)))), most)) return rows;
   return rows.flatMap(({ text, gap }) => {
     const [left, right] = [leftOf(text), sidesOf(text)[1]];
+    // What is short beside the heavy ones stays one row.
+    const both = `${left} ${right}`;
+    if (left && wide(left) <= SHORT && wide(both) <= most) return [{ text: `& ${both}`, gap }];
     const row = { text: `& ${HANGING}${right}`, gap };
     return left ? [{ text: `& ${left}`, gap: " \\\\[0.2em] " }, row] : [row];
   });

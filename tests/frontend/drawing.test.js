@@ -188,6 +188,15 @@ test("a moment goes round its place with its symbol, in the colour of its load",
   assert.equal(labels[0].latex, "M_0");
 });
 
+for (const [moment, wanted] of [["M", "M_0"], ["gamma*cos(omega*t)", "M"], ["", "M"]])
+  test(`a moment that is ${moment || "not given"} is called ${wanted}`, () => {
+    const element = { kind: "moment", at: "pivot", load: "drive" };
+    const symbols = [...scene.parameters, { name: "M", latex: "M_0", unit: "N*m", value: 1 }];
+    const driven = { ...scene, parameters: symbols, loads: [...scene.loads, { kind: "moment", name: "drive", moment }], drawing: { ...scene.drawing, elements: [element] } };
+    const { labels } = figureAt(0, /** @type {typeof scene} */ (/** @type {unknown} */ (driven)));
+    assert.deepEqual(labels.filter(({ className }) => className?.includes("load-drive")).map(({ latex }) => latex), [wanted]);
+  });
+
 /** A place in space at ϑ from the vertical and ψ round it, and its two angles as drawn. */
 function spherical(/** @type {number} */ theta, /** @type {number} */ psi) {
   const bob = [Math.sin(theta) * Math.cos(psi), Math.sin(theta) * Math.sin(psi), Math.cos(theta)];

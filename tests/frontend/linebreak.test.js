@@ -32,6 +32,8 @@ const CASES = [
     "\\begin{aligned}E &=\\htmlClass{k}{aaaa } \\\\[0.2em] & \\qquad {}\\htmlClass{k}{{}+ bbbb}\\end{aligned}"],
   ["a long left side has a row of its own", "\\begin{aligned}aaaa + bbbb &= c + d \\\\[0.4em] &= e\\end{aligned}", 0.52,
     "\\begin{aligned}& aaaa  \\\\[0.2em] & \\qquad {}+ bbbb  \\\\[0.2em] & \\quad {}= c + d \\\\[0.4em]& \\quad {}= e\\end{aligned}"],
+  ["a short one beside it has none", "\\begin{aligned}aaaa + bbbb &= c + d \\\\[0.4em] e &\\approx f\\end{aligned}", 0.52,
+    "\\begin{aligned}& aaaa  \\\\[0.2em] & \\qquad {}+ bbbb  \\\\[0.2em] & \\quad {}= c + d \\\\[0.4em]& e \\approx f\\end{aligned}"],
   ["large brackets become fixed ones where a term goes on within them", "\\begin{aligned}a &= f\\,\\left(bbbb + cccc\\right)\\end{aligned}", 0.7,
     "\\begin{aligned}a &= f\\,\\Bigl(bbbb  \\\\[0.2em] & \\qquad {}+ cccc\\Bigr)\\end{aligned}"],
   ["brackets inside stay whole where that is enough", "\\begin{aligned}a &= f(bbbb (c + d) + eeee (g + h))\\end{aligned}", 0.7,

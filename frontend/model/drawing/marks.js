@@ -162,6 +162,8 @@ export const aboutArc = (on) => ({
 
 /** Radians that the arrow of a moment goes round. */
 const ROUND = 4.2;
+/** A moment that is one symbol is called by it; an expression is a text, not LaTeX. */
+const NAME = /^\w+$/;
 
 /**
  * A moment as an arrow round its place, in the sense in which its angle grows.
@@ -177,7 +179,7 @@ export function moment(element, stage, now, key) {
   const back = to - 0.25;
   const className = marked(`load load-${element.load}`, element);
   const arc = `M${pixel(at(from))}A${radius} ${radius} 0 1 0 ${pixel(at(back))}`;
-  const symbol = latexOf(stage.scene, load?.moment) || "M";
+  const named = load?.latex || (NAME.test(load?.moment ?? "") && latexOf(stage.scene, load?.moment));
   return {
     shapes: [
       {
@@ -195,7 +197,7 @@ export function moment(element, stage, now, key) {
     labels: [
       {
         key,
-        latex: symbol,
+        latex: named || "M",
         ...aboutArc((part, out) => add(centre, scaled(fromDown(from + part * (to - from)), radius + out * stage.unit))),
         className,
       },

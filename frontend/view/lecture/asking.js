@@ -67,8 +67,8 @@ export function createAsking({ changed, poll, shown, subject }) {
 
 /** @typedef {ReturnType<typeof createAsking>} Asking */
 
-/** In place of a result: what it might be, and after a choice what the wrong ones forget. @param {Asking} asking @param {import("../../model/catalog.js").Translate} t */
-export function question(asking, t) {
+/** In place of a result: what it might be, and after a choice what the wrong ones forget. @param {Asking} asking @param {import("../../model/catalog.js").Translate} t @param {(latex: string) => string} short  bodies by numbers */
+export function question(asking, t, short) {
   if (!asking.veiled()) return nothing;
   const choices = asking.choices();
   const open = asking.chosen() === undefined;
@@ -76,7 +76,7 @@ export function question(asking, t) {
   return html`
     <section class="question" aria-label=${t("lecture.ask")}>
       <p class="veil" role="status"><span aria-hidden="true">?</span> ${t(words)}</p>
-      ${choices.length ? html`<ol class="choices">${choices.map((choice, i) => html`<li>${one(choice, i, open, asking, t)}</li>`)}</ol>` : nothing}
+      ${choices.length ? html`<ol class="choices">${choices.map((choice, i) => html`<li>${one({ ...choice, latex: short(choice.latex) }, i, open, asking, t)}</li>`)}</ol>` : nothing}
     </section>`;
 }
 

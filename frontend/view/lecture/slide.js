@@ -51,7 +51,7 @@ function sheet(line, view, { asking }) {
           ${parts.map((one, i) => part(one, i, !concluded && i === parts.length - 1, view))}
           ${
             concluded
-              ? html`<section class="result ${stop ? "newest" : ""}" data-terms=${step.id}>${question(asking, view.t)}
+              ? html`<section class="result ${stop ? "newest" : ""}" data-terms=${step.id}>${question(asking, view.t, numberingIn(view).short)}
             ${asking.veiled() ? nothing : html`${formulaOf(step, view)}${legend(step, view)}`}</section>`
               : nothing
           }
