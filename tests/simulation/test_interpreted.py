@@ -7,6 +7,7 @@ import os
 import subprocess
 import sys
 from pathlib import Path
+from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
@@ -91,6 +92,24 @@ def test_what_takes_too_long_is_given_to_machine_code(new_machine: None, caplog:
     ] * 2
 
 
+def test_short_motions_do_not_wait_until_machine_code_is_loaded(
+    monkeypatch: pytest.MonkeyPatch, caplog: pytest.LogCaptureFixture
+) -> None:
+    """It is there, on disk: who has not loaded it yet tries for a second without."""
+    monkeypatch.setattr(compiler, "is_marked", lambda _name: True)
+    monkeypatch.setattr(compiler, "LOADING", 0.01)
+    loop = Kernel(looped)
+    with caplog.at_level("INFO", "deltaq.simulation"):
+        monkeypatch.setattr(compiler, "is_loaded", lambda: False)
+        assert interpreted(lambda: loop(3), 10.0) == 3
+        with pytest.raises(MachineCodeNeededError):
+            interpreted(lambda: loop(10_000_000), 60.0)
+    assert not caplog.messages  # nothing is missing that one would have to be told of
+    monkeypatch.setattr(compiler, "is_loaded", lambda: True)
+    monkeypatch.setattr(compiler, "_machine", lambda: SimpleNamespace(compiled_kernel=lambda _f: lambda count: -count))
+    assert interpreted(lambda: loop(3), 10.0) == -3
+
+
 def test_an_interpreter_without_a_value_asks_machine_code(new_machine: None, caplog: pytest.LogCaptureFixture) -> None:
     """1/0 is infinite for kernels, and an error in Python."""
 
@@ -108,4 +127,4 @@ def test_an_interpreter_without_a_value_asks_machine_code(new_machine: None, cap
 
     with caplog.at_level("INFO", "deltaq.simulation"):
         assert soonest(compute, 10.0) == np.inf
-    assert caplog.messages[-1] == "this motion takes longer: its kernels are compiled"
+    assert caplog.messages[-1] == "this motion takes longer: its kernels are compiled, or loaded"

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import ctypes
 import logging
+import sys
 from collections.abc import Callable
 from contextvars import ContextVar
 from dataclasses import dataclass
@@ -31,16 +32,35 @@ class MachineCodeNeededError(Exception):
     """Interpreted kernels have had their time, or cannot say what machine code would: the value of 1/0, say."""
 
 
+MACHINE = "deltaq.simulation.kernels.machine"
+LOADING = 1.0  # seconds: half of what it takes to load what runs machine code
+
+
 @dataclass(eq=False)
 class Interpretation:
-    """Kernels without machine code are interpreted up to a time, `end`, of the processor's clock."""
+    """Kernels are interpreted up to a time, `end`, of the processor's clock; begun at `start`.
 
+    Those without machine code are, and those with it in a process that has run none yet: the shell's, say. Most
+    motions are there before the machine code would be loaded, so that only so much is spent on trying.
+    """
+
+    start: float
     end: float
     is_told: bool = False
     failure: Exception | None = None  # where none could be raised
 
+    def takes(self, name: str) -> bool:
+        """Whether a kernel is interpreted whose machine code this process has not run."""
+        if not is_marked(name):
+            self.tell()
+            return True
+        if is_loaded():
+            return False
+        self.end = min(self.end, self.start + LOADING)
+        return True
+
     def tell(self) -> None:
-        """Says so, once."""
+        """Says that there is no machine code, once."""
         if not self.is_told:
             self.is_told = True
             LOGGER.info("kernels are not compiled on this machine yet: this motion is interpreted")
@@ -50,23 +70,29 @@ _INTERPRETATION: ContextVar[Interpretation | None] = ContextVar("interpretation"
 
 
 def soonest(compute: Callable[[], A], seconds: float) -> A:
-    """What `compute` finds: by interpreted kernels where there is no machine code; by this if that takes longer.
+    """What `compute` finds: by interpreted kernels where machine code is not at hand; by this if that takes longer.
 
     `compute` may be called twice.
     """
     try:
         return interpreted(compute, seconds)
     except MachineCodeNeededError:
-        LOGGER.info("this motion takes longer: its kernels are compiled")
+        LOGGER.info("this motion takes longer: its kernels are compiled, or loaded")
         return compute()
 
 
+def is_loaded() -> bool:
+    """Whether this process has what runs machine code."""
+    return MACHINE in sys.modules
+
+
 def interpreted(compute: Callable[[], A], seconds: float) -> A:
-    """What `compute` finds, with kernels interpreted that there is no machine code of.
+    """What `compute` finds, with kernels interpreted as `Interpretation` says.
 
     Raises MachineCodeNeededError if that takes longer, or cannot be done.
     """
-    token = _INTERPRETATION.set(Interpretation(process_time() + seconds))
+    start = process_time()
+    token = _INTERPRETATION.set(Interpretation(start, start + seconds))
     try:
         return compute()
     finally:
@@ -84,7 +110,7 @@ def checkpoint() -> None:
 
 def _machine() -> Any:
     """What makes machine code; loaded where that is needed, for it takes a second."""
-    return import_module("deltaq.simulation.kernels.machine")
+    return import_module(MACHINE)
 
 
 class Kernel:
@@ -97,9 +123,8 @@ class Kernel:
     def __call__(self, *arguments: Any) -> Any:
         """What the function returns. Raises MachineCodeNeededError where it is interpreted, and that takes too long."""
         interpretation = _INTERPRETATION.get()
-        if interpretation is None or "compiled" in self.__dict__ or is_marked(self.name):
+        if interpretation is None or "compiled" in self.__dict__ or not interpretation.takes(self.name):
             return self.compiled(*arguments)
-        interpretation.tell()
         try:
             with np.errstate(all="ignore"):
                 return self.function(*arguments)
@@ -160,9 +185,8 @@ class Callback:
     def address(self) -> int:
         """Where it is, as long as the process lives."""
         interpretation = _INTERPRETATION.get()
-        if interpretation is None or "compiled" in self.__dict__ or is_marked(self.name):
+        if interpretation is None or "compiled" in self.__dict__ or not interpretation.takes(self.name):
             return int(self.compiled.address)
-        interpretation.tell()
         return int(ctypes.cast(self._called, ctypes.c_void_p).value or 0)
 
     @cached_property
