@@ -7,6 +7,7 @@ import os
 import subprocess
 import sys
 from collections.abc import Generator, Iterator
+from importlib import import_module
 from pathlib import Path
 
 import pytest
@@ -45,6 +46,7 @@ def kernels() -> None:
     """All kernels are compiled, by one process for all workers of the run and for the services that they start."""
     if not are_compiled():
         subprocess.run([sys.executable, "-m", "deltaq.cli", "compile"], check=True, stdout=subprocess.DEVNULL)
+    import_module("deltaq.simulation.kernels.machine")  # or short motions would be interpreted: see `Interpretation`
 
 
 @pytest.fixture(scope="session")
