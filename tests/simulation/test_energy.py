@@ -56,7 +56,7 @@ def test_a_drive_feeds_energy_in() -> None:
 def test_the_balance_of_every_scene_stays(name: str) -> None:
     """E + V − ∫P dt as it stands in the answer, however much is fed in or taken out."""
     scene = write_scene(OWN[name]()) if name in OWN else name
-    answer = run({"scene": scene, "t_end": 3.0, "tolerance": 1e-9, "samples": 3001, "include": ["energy"]})
+    answer = run({"scene": scene, "t_end": 3.0, "tolerance": 1e-9, "samples": 3001, "include": ["power"]})
     energy = answer["energy"]
     assert isinstance(energy, dict)
     balance = np.array(energy["balance"])
