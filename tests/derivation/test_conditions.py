@@ -226,14 +226,14 @@ def test_a_degenerate_equilibrium_is_told_by_its_form() -> None:
 @pytest.mark.one_in(6)
 @pytest.mark.parametrize("name", scene_ids())
 def test_modes_are_found_all_over_the_sliders(name: str) -> None:
-    """As many modes as coordinates wherever nothing depends on rates: no rounding of a slider's value loses one."""
+    """As many modes as degrees of freedom where nothing depends on rates: no rounding of a slider loses one."""
     scene, draw = load_scene(name), random.Random(name)
     for _ in range(2):
         moved = replace(scene, parameters=tuple(replace(p, value=drawn(p, draw)) for p in scene.parameters))
         for each in linearizations(System(moved)):
             symmetric = each.stiffness.is_symmetric()
             if each.spectrum is not None and not each.is_damped and symmetric:
-                assert len(each.spectrum.modes) == len(moved.free), each.equilibrium.values
+                assert len(each.spectrum.modes) == moved.degrees_of_freedom, each.equilibrium.values
 
 
 def drawn(parameter: Parameter, draw: random.Random) -> float:
