@@ -17,14 +17,24 @@ WRONG = {"syntax": "plain", "value": "m*l^2*dot(phi)^2"}
 TASK = {"scene": "pendulum", "task": "kinetic-energy"}
 
 
+def resolved(schema: Json, models: dict[str, Json]) -> Json:
+    """What a reference refers to."""
+    return models[schema["$ref"].rpartition("/")[2]] if "$ref" in schema else schema
+
+
+def allows(schema: Json, kind: str, models: dict[str, Json]) -> bool:
+    """Whether a schema is one of arrays, or of objects, or has one among its choices; who names no type has objects."""
+    schema = resolved(schema, models)
+    choices = schema.get("anyOf")
+    return any(allows(one, kind, models) for one in choices) if choices else schema.get("type", "object") == kind
+
+
 def silent(answer: object, schema: Json, models: dict[str, Json], where: str = "") -> Iterator[str]:
     """Pointers to members of an answer of which its description says nothing; a list stands for all its entries."""
-    if "$ref" in schema:
-        schema = models[schema["$ref"].rpartition("/")[2]]
+    schema = resolved(schema, models)
     if "anyOf" in schema and isinstance(answer, dict | list):
-        kinds = ("array",) if isinstance(answer, list) else ("object", None)  # a model is referred to, without a type
-        fitting = next(one for one in schema["anyOf"] if one.get("type") in kinds)
-        yield from silent(answer, fitting, models, where)
+        kind = "array" if isinstance(answer, list) else "object"
+        yield from silent(answer, next(one for one in schema["anyOf"] if allows(one, kind, models)), models, where)
     elif isinstance(answer, dict):
         described, others = schema.get("properties", {}), schema.get("additionalProperties")
         for name, member in answer.items():

@@ -84,7 +84,6 @@ def test_long_systems_are_left_to_numbers() -> None:
     assert solved(equations(chain)) is None
 
 
-@pytest.mark.one_in(2)
 @pytest.mark.parametrize("method", ["dormand-prince-54", "radau-5", "newmark"])
 def test_symbols_and_numbers_move_alike(method: str, monkeypatch: pytest.MonkeyPatch) -> None:
     problem = problem_of(four_bar(), 2.0, 21)

@@ -83,7 +83,7 @@ def project(system: System, h: float) -> int:
         of_gaps, gap_order = system.of_gaps, system.gap_order
         weigh(system, holonomic, of_gaps)
         gap_rank, _ = factor_ranked(of_gaps, gap_order, holonomic)
-    before, first = np.inf, np.inf
+    before, first = np.inf, 0.0
     for _ in range(CORRECTIONS):
         read_gaps(system)
         relative, absolute = 0.0, 0.0
@@ -99,9 +99,10 @@ def project(system: System, h: float) -> int:
         relative, absolute = max(relative, of_rates), max(absolute, at_least)
         if not absolute < np.inf:
             return NOT_FINITE
+        first = max(first, absolute)
         if relative <= CLOSE or (absolute >= STALLED * before and absolute <= CLOSE) or absolute <= GRAIN * first:
             return FINE
-        before, first = absolute, absolute if first == np.inf else first
+        before = absolute
     return NEWTON_FAILED
 
 
