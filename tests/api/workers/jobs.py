@@ -158,7 +158,8 @@ def leave_nothing(document: Any) -> Any:
 
 
 def large(document: Any) -> Any:
-    return "x" * document
+    time.sleep(document["late"])
+    return "x" * document["size"]
 
 
 def end_by_signal(document: Any) -> Any:

@@ -240,14 +240,21 @@ async def test_killed_while_replying_is_repeated(make_pool: MakePool, tmp_path: 
     assert pool.state.kills == 1
 
 
-@pytest.mark.parametrize("what", ["memory", "processor time"])
+@pytest.mark.parametrize(
+    ("what", "late"),
+    [
+        pytest.param("memory", 0.0, id="memory"),
+        pytest.param("memory", 0.3, id="memory, on a machine so busy that the next one waits for a processor"),
+        pytest.param("processor time", 0.0, id="processor time"),
+    ],
+)
 async def test_what_one_job_leaves_behind_is_not_the_next_ones_fault(
-    make_pool: MakePool, what: str, caplog: pytest.LogCaptureFixture
+    make_pool: MakePool, what: str, late: float, caplog: pytest.LogCaptureFixture
 ) -> None:
     pool = make_pool()
     await run(pool, "leave_nothing", what)
     time.sleep(0.5)
-    assert await run(pool, "large", 10_000_000) == "x" * 10_000_000
+    assert await run(pool, "large", {"size": 10_000_000, "late": late}) == "x" * 10_000_000
     assert pool.state.kills == 1
     assert "a worker of 1 jobs was at its bounds" in caplog.text
 
