@@ -57,12 +57,12 @@ PARTS = (
 
 
 def drive(
-    address: str, folder: Path, examples: int, *options: str, closed: Sequence[str] = (), one_in: int = 1
+    address: str, folder: Path, examples: int, *options: str, closed: Sequence[str] = (), one_in: int = 1, turn: int = 0
 ) -> subprocess.CompletedProcess[str]:
     """Run schemathesis over the document; it ends with 0 if nothing was found.
 
     The schemas named `closed` are any object, so that no cases are made of what is inside of them. Of `one_in` cases
-    that could be made one is.
+    that could be made one is; every `turn` below that has others, and all of them together make all.
     """
     (folder / "schemathesis.toml").write_text(SETTINGS, encoding="utf-8")
     document = httpx.get(f"{address}api/v1/openapi.json", timeout=60).json()  # it may only just begin
@@ -83,6 +83,7 @@ def drive(
     environment = os.environ | {
         "SCHEMATHESIS_HOOKS": "tests.api.schema_hooks",
         "SCHEMA_ONE_IN": str(one_in),
+        "SCHEMA_TURN": str(turn),
         "PYTHONPATH": str(Path(__file__).parents[2]),
     }
     whole = [*command, *chosen, *effort]

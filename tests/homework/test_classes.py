@@ -17,7 +17,7 @@ from deltaq.homework.gradebook import Gradebook, Plan, refusal
 from deltaq.homework.grading import Sheet, plan_of, read_answers
 from deltaq.homework.results import OUTCOMES, Graded
 
-SAME = range(2)
+SAME = range(5)
 SEEDS = range(40, 80)
 READABLE = ("correct", "wrong", "follow_through")
 
