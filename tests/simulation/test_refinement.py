@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from functools import cache
 
 import numpy as np
 import pytest
@@ -53,20 +54,34 @@ def extrapolated(rhs: Callable[[Extended], Extended], y: Extended) -> Extended:
     return table[-1][-1]
 
 
-def test_rounding_that_chaos_magnifies_is_told() -> None:
-    """Two runs at the finest tolerance differ by less than both are wrong: they share the rounding of the model."""
+@cache
+def exact() -> tuple[Problem, Extended]:
+    """The double pendulum for 11 s, and its angles at 111 samples."""
     problem = problem_of(double_pendulum(), 11.0, 111)
     rows = [np.array([*problem.values, *problem.rates], dtype=np.longdouble)]
     rhs = rhs_of(problem)
     for _ in range(round(problem.t_end / STEP)):
         rows.append(extrapolated(rhs, rows[-1]))
-    exact = np.array(rows[:: round(0.1 / STEP)])[:, :2]
+    return problem, np.array(rows[:: round(0.1 / STEP)])[:, :2]
+
+
+def test_rounding_that_chaos_magnifies_is_told() -> None:
+    """Two runs at the finest tolerance differ by less than both are wrong: they share the rounding of the model."""
+    problem, angles = exact()
     for tolerance in (1e-9, 1e-10):
         found = simulate(problem, get_method("dop853"), tolerance=tolerance)
         assert found.outcome.status == "tolerance_missed"
-        true = np.abs(found.values - exact).max(axis=1)
+        true = np.abs(found.values - angles).max(axis=1)
         assert true[-1] > 1e-9
         assert np.all(true <= found.estimate.errors)
+
+
+@pytest.mark.parametrize("exponent", np.linspace(-9.0, -4.0, 31).round(3).tolist())
+def test_a_nudge_hides_no_error_of_a_series(exponent: float) -> None:
+    """What a finer run is nudged by, and what the steps of the coarser one do, may be equal and cancel out."""
+    problem, angles = exact()
+    found = simulate(problem, get_method("taylor"), tolerance=10.0**exponent)
+    assert np.all(np.abs(found.values - angles).max(axis=1) <= found.estimate.errors)
 
 
 def test_only_next_to_the_finest_tolerance_is_the_difference_mistrusted() -> None:

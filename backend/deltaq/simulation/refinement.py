@@ -29,8 +29,9 @@ FIRST, LAST = 0, -1  # runs of a pair, the coarser one first
 APART = 1.2  # the largest steps of a coarser series over those of the finer one
 BELOW = 1e-3  # the local tolerance of a finer series over that of the coarser one
 AHEAD = 1e-2  # that of a first series over the tolerance; ten times less costs but one order more
-GRAIN_OF_SERIES, AMONG_ROUNDING = 2e-12, 4.0  # below that local tolerance both runs may be equally wrong
-FINEST_OF_SERIES = 1e-15  # below, rounding rules
+LARGEST_PART = 0.05  # that of a first series over the tolerance at most
+GRAIN_OF_SERIES, AMONG_ROUNDING = 2e-12, 4.0  # below that local tolerance a nudge may do as much as the steps
+FINEST_OF_SERIES, FINER_THAN_FINEST = 1e-15, 1e-16  # below, rounding rules
 LARGEST_OF_SERIES = 0.05  # the largest step of the coarser one over the span
 LARGEST_STEP = 0.01  # of the span, so that a motion that begins at rest does not jump over what comes later
 
@@ -147,6 +148,9 @@ class BySeries:
 
     No factor leads from there to the error of the finer one: local errors of series turn their sign nearly from step to
     step, so that their sums are as by chance. Being so much finer costs but an order or two.
+
+    The finer run is nudged by some units in the last place. Either the steps of the coarser one err by far more than
+    that, or, with the finest tolerance, by far less: in between both errors may be equal, and their difference nothing.
     """
 
     t_end: float
@@ -158,6 +162,11 @@ class BySeries:
 
     def factor_of_answer(self, coarse: Steps, _fine: Steps) -> float:
         return AMONG_ROUNDING if coarse.tolerance < GRAIN_OF_SERIES else self.factor_of_coarse
+
+    @staticmethod
+    def _told_apart(resolution: float) -> float:
+        """The largest local tolerance up to that at which a nudge cannot hide what the steps do."""
+        return resolution if resolution >= GRAIN_OF_SERIES else FINEST_OF_SERIES
 
     def can_compare(self, _coarse: Run, _fine: Steps) -> bool:
         return False
@@ -172,15 +181,15 @@ class BySeries:
         return pieces
 
     def first(self, tolerance: float) -> float:
-        return max(self.ahead * tolerance, FINEST_OF_SERIES)
+        return self._told_apart(max(self.ahead * tolerance, min(LARGEST_PART * tolerance, GRAIN_OF_SERIES)))
 
     def pair(self, resolution: float, _pieces: Pieces) -> tuple[Steps, Steps]:
-        largest, finer = LARGEST_OF_SERIES * self.t_end, self.below * resolution
+        largest, finer = LARGEST_OF_SERIES * self.t_end, max(self.below * resolution, FINER_THAN_FINEST)
         coarse = Steps(largest, resolution, order=self.scheme.order_for(resolution))
         return coarse, Steps(largest / APART, finer, order=self.scheme.order_for(finer))
 
     def next(self, resolution: float, excess: float) -> float:
-        return max(resolution * max(0.1 / excess, 1e-6), FINEST_OF_SERIES)
+        return self._told_apart(resolution * max(0.1 / excess, 1e-6))
 
     def is_finest(self, resolution: float) -> bool:
         return resolution <= FINEST_OF_SERIES
