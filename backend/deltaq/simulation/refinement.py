@@ -15,7 +15,8 @@ FINEST_TOLERANCE = 1e-14  # of the coarser run of a pair; below, rounding rules
 COARSEST_TOLERANCE = 3e-4  # of the coarser run; with more, its error says little of that of the finer one
 FIRST_STEPS, USUAL_TOLERANCE = 200, 1e-3  # in the first try with a fixed step
 UNFINISHED = 0.25  # the step over that of a run that did not come to the end
-RATIO: float = 3.0 + 0.5**0.5  # of the steps of a pair
+RATIO: float = 3.0 + 0.5**0.5  # of the steps of a pair, below order 5
+HIGH = 5  # the least order of methods whose pairs are FINER apart
 FINER: float = 1.5 + 1.0 / 3.0**0.5  # the ratio where the coarser steps are given, and the finer run tells their error
 NEAREST: float = 4.0 / 3.0**0.5 - 0.25
 FARTHEST = 6.0  # what the ratio may be where a run is compared with one before
@@ -197,11 +198,12 @@ class BySeries:
 
 @dataclass(frozen=True)
 class ByStep:
-    """Fixed steps. The error is proportional to h^p (Richardson); runs are a little more than a factor of 2 apart.
+    """Fixed steps. The error is proportional to h^p (Richardson); runs are so far apart that it falls about 100 times.
 
-    The factor is irrational, so that the two runs have no step in common: what is in step with one is not with the
-    other. The factors below are those of 2, which is on the safe side. Where forces bend or jump along the way, `sure`
-    is 1: a step across such a place is of first order, whatever the method.
+    Farther apart, the difference would say less of the finer one: while h is not small enough, errors fall faster or
+    less fast by powers of the ratio. That is irrational, so that the two runs have no step in common: what is in step
+    with one is not with the other. The factors below are those of 2, which is on the safe side. Where forces bend or
+    jump along the way, `sure` is 1: a step across such a place is of first order, whatever the method.
     """
 
     t_end: float
@@ -235,7 +237,7 @@ class ByStep:
         return self.t_end / FIRST_STEPS * min(max(guess, 0.1), 1.0)
 
     def pair(self, resolution: float, _pieces: Pieces) -> tuple[Steps, Steps]:
-        return Steps(resolution), Steps(resolution, ratio=RATIO)
+        return Steps(resolution), Steps(resolution, ratio=self._apart)
 
     def next(self, resolution: float, excess: float) -> float:
         shrink = float((0.5 / excess) ** (1.0 / self.order)) if excess < np.inf else UNFINISHED
@@ -247,7 +249,12 @@ class ByStep:
     @property
     def _finest(self) -> float:
         """The finer run of the pair must end within the step limit."""
-        return 1.005 * RATIO * self.t_end / self.step_limit
+        return 1.005 * self._apart * self.t_end / self.step_limit
+
+    @property
+    def _apart(self) -> float:
+        """The ratio of the steps of a pair."""
+        return RATIO if self.order < HIGH else FINER
 
 
 def _is_bounded(steps: Steps) -> bool:

@@ -39,7 +39,8 @@ def sample_implicit(
     """
     if weights.error.size > 0:
         return sample_stages(phase, weights, now, samples, first, workspace), 0
-    return sample_between(motion, now[0], now[1], samples[0], samples[1], first, workspace.ends)
+    is_high = 1 if weights.c.size > 1 else 0  # of order 2s
+    return sample_between(motion, now[0], now[1], samples[0], samples[1], first, workspace.ends, is_high)
 
 
 @inline

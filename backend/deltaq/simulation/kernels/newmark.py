@@ -55,7 +55,7 @@ def integrate_newmark(
             if is_held_before(watch.switch, t + h, held):
                 outcome = held
                 break
-            filled, made = sample_between(motion, t, h, times, out, filled, ends)
+            filled, made = sample_between(motion, t, h, times, out, filled, ends, runtime_int(0))
             evaluations += made
             outcome, made = watch_between(motion, t, h, watch, ends)
             outcome = outcome or held

@@ -166,7 +166,7 @@ def integrate_split(
             evaluations += 2
         if outcome != FINE:
             break
-        filled, extra = sample_between(motion, t, h, times, out, filled, ends)
+        filled, extra = sample_between(motion, t, h, times, out, filled, ends, runtime_int(0))
         evaluations += extra
         outcome, extra = watch_between(motion, t, h, watch, ends)
         evaluations += extra
