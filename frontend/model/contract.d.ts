@@ -2667,7 +2667,7 @@ export interface components {
             result: components["schemas"]["DerivationResult"];
             /**
              * Left Out
-             * @description what is missing in the last chapter, and in the results that come from it
+             * @description what is missing, in the last chapter most of all, and in the results that come from it
              * @default []
              */
             left_out: components["schemas"]["LeftOut"][];
@@ -4711,7 +4711,7 @@ export interface components {
         };
         /**
          * LeftOut
-         * @description A part of the last chapter that is missing.
+         * @description A part that is missing: one of the last chapter, or multipliers written out.
          */
         LeftOut: {
             /**
@@ -4719,13 +4719,13 @@ export interface components {
              * @description `model` is all of it
              * @enum {string}
              */
-            part: "model" | "equilibria" | "small-motions" | "integrals" | "relative-equilibria" | "canonical";
+            part: "multipliers" | "model" | "equilibria" | "small-motions" | "integrals" | "relative-equilibria" | "canonical";
             /**
              * Reason
-             * @description `later`: ask for it; `budget`: its operations are spent; `time`: so is its time; `failed`: our bug
+             * @description `later`: ask for it; `budget`: its operations are spent; `time`: its time is; `failed`: our bug; others are of the scene's own
              * @enum {string}
              */
-            reason: "later" | "budget" | "time" | "failed" | "constraints" | "rates";
+            reason: "later" | "budget" | "time" | "failed" | "constraints" | "rates" | "long" | "many";
             /**
              * Text
              * @description that it is missing, and what to do about it

@@ -8,13 +8,19 @@ import pytest
 import sympy as sp
 from tests.derivation.scenes import constrained
 
+from deltaq.derivation.chapters import constraints
 from deltaq.derivation.engine import derive
 from deltaq.derivation.formula import Equation, Inserted, MatrixTimes
+from deltaq.derivation.model_chapter import model
+from deltaq.derivation.multipliers import multipliers
 from deltaq.derivation.result import Result, result_of
 from deltaq.derivation.step import Derivation, Relation, Step
 from deltaq.derivation.system import System
 from deltaq.derivation.verification import random_points, verified_step
+from deltaq.mechanics.document import read_scene
+from deltaq.mechanics.scene import Scene
 from deltaq.narration.derive import narrated
+from deltaq.narration.outcome import missing
 
 SCENES = {scene.id: scene for scene in constrained()}
 
@@ -85,6 +91,50 @@ def solved(name: str, values: dict[str, float]) -> list[float]:
     matrix = product.applyfunc(lambda entry: _number(entry, values))
     found = matrix.LUsolve(right.applyfunc(lambda entry: _number(entry, values)))
     return [-float(each) for each in found[unknowns:]]
+
+
+def hung(count: int) -> Scene:
+    """So many bobs on rods from one pivot."""
+    numbers = range(1, count + 1)
+    rods = [{"name": f"rod{k}", "kind": "distance", "from": "pivot", "to": f"bob{k}", "length": "l"} for k in numbers]
+    bobs = [{"name": f"bob{k}", "kind": "particle", "mass": "m", "position": [f"x{k}", f"y{k}"]} for k in numbers]
+    return read_scene(
+        {
+            "id": "hung",
+            "coordinates": [{"name": f"{axis}{k}", "value": float(axis == "y")} for k in numbers for axis in "xy"],
+            "parameters": [{"name": name, "value": 1.0} for name in ("m", "l", "g")],
+            "points": [{"name": "pivot", "position": ["0", "0"]}],
+            "bodies": bobs,
+            "loads": [{"name": "weight", "kind": "gravity", "acceleration": ["0", "g"]}],
+            "constraints": rods,
+        }
+    )
+
+
+def test_multipliers_of_parts_that_do_not_touch_are_written_out() -> None:
+    """Each rod pulls with m (v²/l + g cos φ), whatever the others do."""
+    found = multipliers(System(hung(3)))
+    assert found is not None
+    state = {"m": 2.0, "l": 1.0, "g": 9.81, "x1": 0.6, "y1": 0.8, "x2": 0.0, "y2": 1.0, "x3": 1.0, "y3": 0.0}
+    state |= {"dot(x1)": 1.6, "dot(y1)": -1.2, "dot(x2)": 3.0, "dot(y3)": 0.5}
+    expected = [2.0 * (4.0 + 9.81 * 0.8), 2.0 * (9.0 + 9.81), 2.0 * 0.25]
+    assert [_number(value, state) for value in found.values.values()] == pytest.approx(expected, abs=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("scene", "why"),
+    [(SCENES["two-rods"], "long"), (hung(5), "many")],
+    ids=["long", "many"],
+)
+def test_multipliers_that_are_not_written_out_have_a_reason(scene: Scene, why: str) -> None:
+    system = System(scene)
+    *_, last = constraints(system)
+    assert (last.id, last.about) == ("left-out:multipliers", {"outcome": f"multipliers-{why}"})
+    assert system.effort.left_out == {"multipliers": why}
+    assert [step.id for step in model(system)].count("left-out:multipliers") == 0
+    told = [missing("multipliers", why, language)["text"] for language in ("de", "en")]
+    assert all("Multipli" in each or "multipli" in each for each in told)
+    assert told[0] != told[1]
 
 
 def _sides(step: Step) -> tuple[sp.Matrix, sp.Matrix]:

@@ -95,7 +95,8 @@ class Chapters:
         if not isinstance(error, TOO_LARGE):
             report_of(error)  # is logged
         document = json.loads(equations)
-        document["left_out"] = [missing("model", "time" if isinstance(error, TOO_LARGE) else "failed", self.language)]
+        why = missing("model", "time" if isinstance(error, TOO_LARGE) else "failed", self.language)
+        document["left_out"] = [why if each["part"] == "model" else each for each in document["left_out"]]
         if asked == "model":
             document["chapters"] = []
         return Found("cut", _packed(document), lasts=False)

@@ -112,11 +112,12 @@ class Chapter(Answer):
 
 
 class LeftOut(Answer):
-    """A part of the last chapter that is missing."""
+    """A part that is missing: one of the last chapter, or multipliers written out."""
 
     part: OptionalPart = Field(description="`model` is all of it")
     reason: Missing = Field(
-        description="`later`: ask for it; `budget`: its operations are spent; `time`: so is its time; `failed`: our bug"
+        description="`later`: ask for it; `budget`: its operations are spent; `time`: its time is; `failed`: our bug; "
+        "others are of the scene's own"
     )
     text: str = Field(description="that it is missing, and what to do about it")
 
@@ -130,5 +131,5 @@ class DerivationAnswer(Answer):
     chapters: tuple[Chapter, ...] = Field(description="those that were asked for")
     result: DerivationResult
     left_out: tuple[LeftOut, ...] = Field(
-        (), description="what is missing in the last chapter, and in the results that come from it"
+        (), description="what is missing, in the last chapter most of all, and in the results that come from it"
     )

@@ -23,6 +23,7 @@ from .rules import (
     impact_law,
     impact_system,
     lagrange_equation,
+    left_out,
     multiplier,
     position,
     potential,
@@ -131,6 +132,8 @@ def constraints(system: System) -> Iterator[Step]:
     found = multipliers(system)
     if found is not None:
         yield from (multiplier.apply(system, condition, found) for condition in system.conditions)
+    else:
+        yield left_out.apply("multipliers", system.effort.left_out["multipliers"])
 
 
 def contact(system: System) -> Iterator[Step]:

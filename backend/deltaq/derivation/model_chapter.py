@@ -53,7 +53,8 @@ def model(system: System) -> Iterator[Step]:
     elif not is_sought(system):
         search_of(system)  # which says why not
     yield from _conserved(system)
-    yield from (left_out.apply(part, why) for part, why in system.effort.left_out.items())
+    missing = system.effort.left_out.items()
+    yield from (left_out.apply(part, why) for part, why in missing if part != "multipliers")  # those are told before
 
 
 def _equilibria(system: System) -> Iterator[Step]:

@@ -14,10 +14,12 @@ import sympy as sp
 from ..language.display import size
 from ..language.memory import cached_method
 from ..language.operations import operations
+from ..vocabulary import Missing
 from .matrix_form import forcing, mass_matrix
 from .system import System
 
-MOST_COORDINATES, MOST_CONSTRAINTS = 4, 2
+MOST_COORDINATES, MOST_CONSTRAINTS = 4, 2  # of those that are solved whatever they are like
+MANY_COORDINATES, MANY_CONSTRAINTS = 9, 4  # of those that are tried where M is diagonal
 LONGEST = 400  # parts of an expression that is still read
 LEAST_CANCELLED, MOST_CANCELLED = 12, 200  # parts of an expression whose common factors are cancelled
 MOST_GIVEN, MOST_LEFT = 150, 120  # parts of the laws, and of the system for λ: solving it multiplies them
@@ -33,29 +35,57 @@ class Multipliers:
     values: dict[sp.Symbol, sp.Expr]
 
 
+class NotWritten(Exception):
+    """λ is not written out; `why` not."""
+
+    def __init__(self, why: Missing) -> None:
+        super().__init__(why)
+        self.why = why
+
+
 @cached_method
 def multipliers(system: System) -> Multipliers | None:
-    """None where there are no constraints, or λ would be too long to be read."""
-    count = len(system.conditions)
-    if not 0 < count <= MOST_CONSTRAINTS or len(system.free) > MOST_COORDINATES:
+    """None where there are no constraints, or λ is not written out: `system.effort.left_out` then tells why."""
+    if not system.conditions:
         return None
+    try:
+        return _written(system)
+    except NotWritten as error:
+        system.effort.left_out["multipliers"] = error.why
+        return None
+
+
+def _written(system: System) -> Multipliers:
+    """Raises NotWritten."""
     mass, rows = mass_matrix(system), system.constraint_matrix()
-    if _length(mass, rows, forcing(system)) > MOST_GIVEN:
-        return None
+    if _are_many(system, mass):
+        raise NotWritten("many")
     inverse = inverse_of(system, mass)
-    if inverse is None:
-        return None
+    if inverse is None or _length(mass, rows, forcing(system)) > MOST_GIVEN * _parted(system, mass):
+        raise NotWritten("long")
     loads = forcing(system) + rows.T * sp.Matrix(system.multipliers)
     accelerations = {system.acceleration(q): a for q, a in zip(system.free, inverse * loads, strict=True)}
-    matrix = system.display(rows * inverse * rows.T)
+    matrix = sp.ImmutableMatrix(system.display(rows * inverse * rows.T))
     drift = sp.Matrix([system.drift_term(each) for each in system.conditions])
     rest = system.display(sp.ImmutableMatrix(rows * (inverse * forcing(system)) + drift))
-    if _length(matrix, rest) > MOST_LEFT:
-        return None
-    values = _solved(system, sp.ImmutableMatrix(matrix), rest)
+    if _length(matrix, rest) > MOST_LEFT * _parted(system, matrix):
+        raise NotWritten("long")
+    values = _solved(system, matrix, rest)
     if values is None or sum(map(size, values.values())) > LONGEST:
-        return None
-    return Multipliers(accelerations, sp.ImmutableMatrix(matrix), rest, values)
+        raise NotWritten("long")
+    return Multipliers(accelerations, matrix, rest, values)
+
+
+def _parted(system: System, matrix: sp.ImmutableMatrix) -> int:
+    """How many times as long may be what falls into parts: a diagonal matrix multiplies nothing when it is inverted."""
+    return len(system.conditions) if matrix.is_diagonal() else 1
+
+
+def _are_many(system: System, mass: sp.ImmutableMatrix) -> bool:
+    """Whether there are too many coordinates or constraints for it to be tried."""
+    count, degrees = len(system.conditions), len(system.free)
+    most = (MANY_CONSTRAINTS, MANY_COORDINATES) if mass.is_diagonal() else (MOST_CONSTRAINTS, MOST_COORDINATES)
+    return count > most[0] or degrees > most[1]
 
 
 def _length(*matrices: sp.ImmutableMatrix) -> int:

@@ -107,14 +107,18 @@ class _Told:
 
     def equations(self) -> Document:
         """These chapters and their results; those of the last one are empty."""
-        return self._document(equations_of(self.system), [missing("model", "later", self.language)])
+        return self._document(equations_of(self.system), [missing("model", "later", self.language), *self._missing])
 
     def whole(self) -> Document:
         """The last chapter behind what has been told, and all results."""
         self._tell(tuple(self.steps))
         found = result_of(self.system)
-        left_out = self.system.effort.left_out.items()
-        return self._document(found, [missing(part, why, self.language) for part, why in left_out])
+        return self._document(found, self._missing)
+
+    @property
+    def _missing(self) -> list[Document]:
+        """The parts that have been left out so far, and why."""
+        return [missing(part, why, self.language) for part, why in self.system.effort.left_out.items()]
 
     def _tell(self, chapters: tuple[Chapter, ...]) -> None:
         told, self.roots = self.narrator.told(chapters, self.roots)

@@ -1,4 +1,4 @@
-"""A part of the last chapter that would take too long, or that has no law here for scenes with constraints.
+"""A part that would take too long or be too long to read, or that has no law here for scenes with constraints.
 
 How long expressions become cannot be told beforehand, so each part has a share of operations, after which it ends
 without a result (`derivation/effort.py`).
