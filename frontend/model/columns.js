@@ -40,7 +40,7 @@ export function unpacked(answer) {
     return t.map((_, i) => numbers.slice(i * wide, (i + 1) * wide));
   };
   const { coordinates, rates, positions, loads, multipliers, friction, energy } = answer;
-  const { drift, power, work, ...energies } = energy ?? {};
+  const { drift, works, power, work, ...energies } = energy ?? {};
   const columns = power && work ? { ...energies, power, work } : energies;
   const made = {
     ...answer,
@@ -52,7 +52,7 @@ export function unpacked(answer) {
     loads: each(loads, asRows),
     multipliers: each(multipliers, asNumbers),
     friction: each(friction, ({ force, largest }) => ({ force: asNumbers(force), largest: asNumbers(largest) })),
-    energy: energy && { ...each(columns, asNumbers), drift },
+    energy: energy && { ...each(columns, asNumbers), drift, works },
   };
   return /** @type {Trajectory} */ (made);
 }

@@ -3009,6 +3009,11 @@ export interface components {
             power?: components["schemas"]["Column"] | null;
             /** @description the power's integral over the time; where `power` is included */
             work?: components["schemas"]["Column"] | null;
+            /**
+             * Works
+             * @description whether other forces do any work; else the balance is kinetic + potential
+             */
+            works: boolean;
             /** @description constant when all is right */
             balance: components["schemas"]["Column"];
             /**
@@ -6326,6 +6331,23 @@ export interface components {
             predicted: number | null;
         };
         /**
+         * ReactionKind
+         * @description What a reaction is a quantity of.
+         */
+        ReactionKind: {
+            /**
+             * Unit
+             * @description "" where the scene states too few units
+             * @example N
+             */
+            unit: string;
+            /**
+             * Of Rod
+             * @description whether a rod or string exerts it, which goes slack where the sign changes
+             */
+            of_rod: boolean;
+        };
+        /**
          * ReactionResult
          * @description What holds a length, an angle or a guided coordinate that was released in thought: δW = Z δl.
          */
@@ -7385,6 +7407,13 @@ export interface components {
              */
             multipliers?: {
                 [key: string]: components["schemas"]["Column"];
+            } | null;
+            /**
+             * Reactions
+             * @description what each of the `multipliers` is
+             */
+            reactions?: {
+                [key: string]: components["schemas"]["ReactionKind"];
             } | null;
             /**
              * Undetermined

@@ -119,14 +119,14 @@ function within(curve, from, to) {
  * Reactions along the motion: multipliers of constraints, and what holds what was released; those of a unit share a row.
  * @param {Scene} scene @param {Trajectory} trajectory @param {Look} look @returns {Row[]}
  */
-function reactionRows(scene, { t: times, multipliers }, { hidden }) {
+function reactionRows(scene, { t: times, multipliers, reactions }, { hidden }) {
   if (!multipliers) return [];
   const { coordinates, parameters } = scene;
   const known = new Map([...coordinates, ...parameters].map(({ name, latex }) => [name, latex || name]));
   /** @type {Map<string, Row>} */
   const rows = new Map();
   Object.entries(multipliers).forEach(([name, values], k) => {
-    const { unit, pulls } = natureOf(scene, name, k);
+    const { unit = "", of_rod: pulls = false } = reactions?.[name] ?? {};
     const row = rows.get(unit) ?? { key: `reactions${rows.size || ""}`, unit, least: 0, curves: [] };
     rows.set(unit, row);
     row.curves.push({
@@ -191,22 +191,6 @@ function frictionRows(scene, { t: times, friction }, { hidden }) {
 const CONJUGATE = { m: "N", rad: "N m" };
 
 /**
- * The unit of a reaction, as far as it is known, and whether it is the force of a rod or string. Constraints come first,
- * in their order.
- * @param {Scene} scene @param {string} name @param {number} k its number
- */
-function natureOf({ coordinates, parameters, constraints }, name, k) {
-  const constraint = constraints?.[k];
-  if (constraint) {
-    const isRod = constraint.kind === "distance";
-    return { unit: isRod && parameters.some(({ unit }) => unit === "kg") ? "N" : "", pulls: isRod };
-  }
-  const length = parameters.find((parameter) => parameter.name === name);
-  const released = length ?? coordinates.find((coordinate) => coordinate.name === name);
-  return { unit: CONJUGATE[released?.unit ?? ""] ?? "", pulls: length?.unit === "m" };
-}
-
-/**
  * When the force of a rod or string changes its sign: there a string would go slack, and a rod begins to push or to pull.
  * @param {Curve} curve
  */
@@ -260,11 +244,10 @@ function energyRow({ t: times, energy }, { hidden }) {
     wrapped: false,
     hidden: hidden.includes(key),
   });
-  const curves = [
-    curve("kinetic", "E", "energy-kinetic"),
-    curve("potential", "V", "energy-potential"),
-    curve("balance", "E+V-\\textstyle\\int\\! P\\,dt", "energy-balance", "E + V − ∫P dt", "dot"),
-  ];
+  const balance = energy.works
+    ? curve("balance", "E+V-\\textstyle\\int\\! P\\,dt", "energy-balance", "E + V − ∫P dt", "dot")
+    : curve("balance", "E+V", "energy-balance", "E + V", "dot");
+  const curves = [curve("kinetic", "E", "energy-kinetic"), curve("potential", "V", "energy-potential"), balance];
   return [{ key: "energy", unit: "J", least: 0, curves }];
 }
 

@@ -62,7 +62,7 @@
  * @typedef {Pick<Contract["DerivationAnswer"], "id" | "chapters"> & Partial<Pick<Contract["DerivationAnswer"], "result" | "left_out">>} Derivation  of a scene, with its results, or a general proof
  * @typedef {Contract["MethodEntry"]} Method
  * @typedef {NonNullable<Contract["SimulationRequest"]["include"]>} Parts  of a motion
- * @typedef {InNumbers<Omit<Contract["Energy"], "drift">>} Energy
+ * @typedef {InNumbers<Omit<Contract["Energy"], "drift" | "works">> & Pick<Contract["Energy"], "works">} Energy
  * @typedef {Omit<Contract["SimulationAnswer"], "t" | "coordinates" | "rates" | "positions" | "loads" | "multipliers" | "friction" | "energy"> & {t: number[],
  *   coordinates: Record<string, number[]>, rates: Record<string, number[]>, positions: Record<string, number[][]>,
  *   loads?: Record<string, number[][]> | null, multipliers?: Record<string, number[]> | null, friction?: Record<string, {force: number[], largest: number[]}> | null, energy?: Energy | null, coarse?: boolean}} Trajectory  with what the page always asks to be included; coarse: its samples do not show all of the motion

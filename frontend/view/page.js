@@ -105,9 +105,11 @@ function release({ state, session, t }) {
   const held = derivation?.result?.releasable ?? [];
   const chosen = (/** @type {Event} */ { target }) => session.release(/** @type {HTMLSelectElement} */ (target).value);
   if (!held.length) return nothing;
+  const now = held.find(({ name }) => name === place.release);
   return html`
     <label class="choice release" title=${t("release.choose")}>
       <span class="unseen">${t("release.choose")}</span>
+      <span class="chosen" aria-hidden="true">${now ? t(`release.${now.kind}`, { name: now.name }) : t("release.none")}</span>
       <select @change=${chosen}>
         <option value="" ?selected=${!place.release}>${t("release.choose")}</option>
         ${held.map(({ name, kind }) => html`<option value=${name} ?selected=${name === place.release}>${t(`release.${kind}`, { name })}</option>`)}

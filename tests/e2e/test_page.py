@@ -256,6 +256,24 @@ def test_a_phone_does_not_scroll_sideways(lecture: Lecture) -> None:
     until_equal(lecture.page, lambda: lecture.page.evaluate(wide), [])
 
 
+@pytest.mark.parametrize("lang", ["de", "en"])
+@pytest.mark.parametrize("width", [390, 1024, 1366, 1920])
+def test_what_is_chosen_can_be_read(lecture: Lecture, lang: str, width: int) -> None:
+    """No list that shows its choice cuts it off; the scene's title has lines of its own."""
+    lecture.page.set_viewport_size({"width": width, "height": 800})
+    lecture.open(f"?scene=chaplygin-sleigh&lang={lang}")
+    expect(lecture.page.locator(".release .chosen")).to_be_visible()
+    cut = """() => [...document.querySelectorAll('.choice:not(.scene *)')].map((choice) => {
+        const list = choice.querySelector('select'), shown = choice.querySelector('.chosen') ?? list;
+        const style = getComputedStyle(shown), text = list === shown ? list.selectedOptions[0].text : shown.textContent;
+        const context = document.createElement('canvas').getContext('2d');
+        context.font = style.font;
+        const room = shown.clientWidth - parseFloat(style.paddingLeft) - parseFloat(style.paddingRight);
+        return [text, choice.offsetWidth ? context.measureText(text).width - room : 0];
+    }).filter(([, over]) => over > 1)"""
+    until_equal(lecture.page, lambda: lecture.page.evaluate(cut), [])
+
+
 def test_an_unknown_scene_is_said_in_sentences(page: Page, server: str) -> None:
     page.goto(f"{server}scene?scene=no-such-scene&lang=de")
     failure = page.locator(".derivation .failure")

@@ -42,11 +42,12 @@ for (const [acceleration, vertical, down] of /** @type {const} */ ([["g", "down"
     assert.equal((label?.at[1] ?? NaN) > bob[1], down);
   });
 
-test("a view that the motion leaves is widened about its centre, and not without end", () => {
+test("a view is widened on the side where the motion leaves it, and not without end", () => {
   const far = (/** @type {number} */ x) => ({ ...trajectory, positions: { bob: [[x, 0]] } });
   assert.deepEqual(viewOf(scene, far(1.8)), [-2, 2, -2, 2]);
-  assert.deepEqual(viewOf(scene, far(1.97)), [-2.5, 2.5, -2.5, 2.5], "a body has a size");
-  assert.deepEqual(viewOf(scene, far(2.3)), [-2.5, 2.5, -2.5, 2.5]);
+  assert.deepEqual(viewOf(scene, far(1.97)), [-2, 2.5, -2, 2], "a body has a size");
+  assert.deepEqual(viewOf(scene, far(2.3)), [-2, 2.5, -2, 2]);
+  assert.deepEqual(viewOf(scene, { ...trajectory, positions: { bob: [[-2.3, 0], [0, 2.3]] } }), [-2.5, 2, -2, 2.5], "two sides");
   const swung = { ...trajectory, positions: { bob: Array.from({ length: 20 }, (_, i) => [i ? 0 : 2.8, 0]) } };
   assert.ok(viewOf(scene, swung)[1] > 2.8, "what comes there for a moment is seen as well where that is cheap");
   const ran = { ...trajectory, positions: { bob: Array.from({ length: 20 }, (_, i) => [i ? 0 : 50, 0]) } };

@@ -202,7 +202,7 @@ test("an assignment travels in an address, and comes from files", async () => {
 test("both motions stand in one frame, and part at a time", () => {
   const wide = { ...trajectory, positions: { ...trajectory.positions, bob: trajectory.t.map(() => [9, 0]) } };
   const [x0, x1] = framed(/** @type {any} */ (scene), [trajectory, wide]).drawing?.view ?? [];
-  assert.ok(x0 <= -9 && x1 >= 9);
+  assert.ok(x0 <= -2 && x1 >= 9);
   const other = { ...trajectory, coordinates: { ...trajectory.coordinates, phi: trajectory.t.map((t) => (t < 2 ? t / 4 : 2)) } };
   assert.equal(parting(trajectory, other), 2);
   assert.equal(parting(trajectory, trajectory), null);

@@ -14,17 +14,24 @@ test("a row for each unit, and one for the energies", () => {
 });
 
 test("reactions have a row above the energies, written as what they hold or as multipliers", () => {
-  const held = { ...trajectory, multipliers: { lambda_1: trajectory.t.map((t) => t), l: trajectory.t.map((t) => -t) } };
-  const rows = (/** @type {string} */ unit, /** @type {string} */ kind) => {
-    const parameters = [{ name: "l", latex: "\\ell", unit }, { name: "m", unit: "kg" }];
-    const found = rowsOf(/** @type {any} */ ({ ...scene, parameters, constraints: [{ kind }] }), held).slice(2, -1);
+  const multipliers = { lambda_1: trajectory.t.map((t) => t), l: trajectory.t.map((t) => -t) };
+  const parameters = [{ name: "l", latex: "\\ell", unit: "m" }, { name: "m", unit: "kg" }];
+  const rows = (/** @type {any} */ reactions) => {
+    const found = rowsOf(/** @type {any} */ ({ ...scene, parameters }), { ...trajectory, multipliers, reactions }).slice(2, -1);
     return found.map(({ unit, curves }) => [unit, ...curves.map(({ latex, className, pulls }) => [latex, className, pulls])]);
   };
-  const [multiplier, held_] = [["\\lambda_{1}", "q-2"], ["Z_{\\ell}", "q-3"]];
-  assert.deepEqual(rows("m", "distance"), [["N", [...multiplier, true], [...held_, true]]]);
-  assert.deepEqual(rows("m", "equation"), [["", [...multiplier, false]], ["N", [...held_, true]]]);
-  assert.deepEqual(rows("rad", "distance"), [["N", [...multiplier, true]], ["N m", [...held_, false]]]);
+  const [multiplier, held] = [["\\lambda_{1}", "q-2"], ["Z_{\\ell}", "q-3"]];
+  const kind = (/** @type {string} */ unit, of_rod = true) => ({ unit, of_rod });
+  assert.deepEqual(rows({ lambda_1: kind("N"), l: kind("N") }), [["N", [...multiplier, true], [...held, true]]]);
+  assert.deepEqual(rows({ lambda_1: kind("N", false), l: kind("N m", false) }), [["N", [...multiplier, false]], ["N m", [...held, false]]]);
+  assert.deepEqual(rows(undefined), [["", [...multiplier, false], [...held, false]]]);
 });
+
+for (const [works, name] of /** @type {[boolean, string][]} */ ([[true, "E + V − ∫P dt"], [false, "E + V"]]))
+  test(`the balance of energies is ${name} where ${works ? "something" : "nothing"} else works`, () => {
+    const energy = { kinetic: trajectory.t, potential: trajectory.t, balance: trajectory.t, works };
+    assert.deepEqual(rowsOf(scene, { ...trajectory, energy }).at(-1)?.curves.map((curve) => curve.name), ["E", "V", name]);
+  });
 
 test("where the force of a rod changes its sign a string would go slack", () => {
   const t = Array.from({ length: 81 }, (_, i) => i / 20);

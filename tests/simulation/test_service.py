@@ -31,7 +31,7 @@ FIELDS = {
     *("t_reached", "trusted_until", "condition", "cost"),
     *("coordinates", "rates", "positions", "loads", "energy", "error"),
 }
-OF_CONSTRAINTS = {"multipliers", "drift", "moved", "undetermined"}
+OF_CONSTRAINTS = {"multipliers", "reactions", "drift", "moved", "undetermined"}
 
 
 def ask(**fields: object) -> dict[str, object]:

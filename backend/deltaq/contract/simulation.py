@@ -84,6 +84,7 @@ class Energy(Answer):
         None, description="of all that is not in kinetic + potential, in watt; where `power` is included"
     )
     work: Column | None = Field(None, description="the power's integral over the time; where `power` is included")
+    works: bool = Field(description="whether other forces do any work; else the balance is kinetic + potential")
     balance: Column = Field(description="constant when all is right")
     drift: float = Field(description="largest departure of the balance from its start")
 
@@ -106,6 +107,13 @@ class MovedValue(Answer):
 
     value: float
     rate: float
+
+
+class ReactionKind(Answer):
+    """What a reaction is a quantity of."""
+
+    unit: str = Field(description='"" where the scene states too few units', examples=["N"])
+    of_rod: bool = Field(description="whether a rod or string exerts it, which goes slack where the sign changes")
 
 
 class EventAnswer(Answer):
@@ -173,6 +181,7 @@ class SimulationAnswer(Answer):
         description="of constraints, as far as they are unique (of a distance the force, positive in tension), and Z of"
         " each name in `release`, in the direction in which it grows",
     )
+    reactions: dict[str, ReactionKind] | None = Field(None, description="what each of the `multipliers` is")
     undetermined: tuple[str, ...] | None = Field(
         None, description="multipliers that are not unique, since their constraints depend on one another"
     )

@@ -9,11 +9,12 @@ from ..language.plain_printer import plain
 from ..language.symbols import Symbols
 from ..language.sympy_algebra import to_sympy
 from ..mechanics.homogeneity import DimensionCheck
+from ..mechanics.reaction_units import units_of
 from ..mechanics.scene import Scene
 from ..mechanics.units import Dimension
 from ..narration.prose import formula
 from .equality import Parts
-from .reading import Reading, sums, units_of
+from .reading import Reading, sums
 
 Told = tuple[str, dict[str, str]]
 RAISED = str.maketrans("0123456789-", "⁰¹²³⁴⁵⁶⁷⁸⁹⁻")

@@ -7,6 +7,9 @@ from collections.abc import Mapping
 
 import numpy as np
 
+from ..mechanics.reaction_units import reaction_unit
+from ..mechanics.scene import Scene
+from ..mechanics.units import UNITS, dimension_of
 from ..mechanics.user_text import plainly
 from ..model.model import Observation
 from .choice import Choice
@@ -48,6 +51,7 @@ def answer(
         parts["friction"] = _friction(frictions, column)
     if "multipliers" in request.include and problem.reactions:
         parts["multipliers"] = _multipliers(problem, trajectory, column)
+        parts["reactions"] = _reactions(request.scene, problem)
     return {
         "status": trajectory.outcome.status,
         "reason": _told(trajectory.outcome),
@@ -142,6 +146,7 @@ def _energy(request: Request, problem: Problem, trajectory: Trajectory, seen: Ob
     shorter = _together(list(energies.values()), doubt, column)
     return {
         **{name: column.write(energy) for name, energy in zip(energies, shorter, strict=True)},
+        "works": problem.model.layout.is_powered or bool(trajectory.work.any()),
         "drift": short(float(np.max(np.abs(balance - balance[:1]), initial=0.0))),  # no sample where it cannot start
     }
 
@@ -167,6 +172,19 @@ def _multipliers(problem: Problem, trajectory: Trajectory, column: Writer) -> Do
     return {
         name: column.write(column.shorten(reactions.multipliers[:, k], _doubts(known, k, len(trajectory.times))))
         for k, name in _unique(problem)
+    }
+
+
+def _reactions(scene: Scene, problem: Problem) -> Document:
+    """The unit of each reaction that has one value, and whether a rod or a string exerts it."""
+    lengths = {parameter.name for parameter in scene.parameters if dimension_of(parameter.unit) == UNITS["m"]}
+    rods = {
+        symbol.name
+        for symbol, each in zip(scene.multipliers, scene.constraints, strict=True)
+        if each.kind == "distance"
+    }
+    return {
+        name: {"unit": reaction_unit(scene, name), "of_rod": name in rods | lengths} for _, name in _unique(problem)
     }
 
 

@@ -38,7 +38,7 @@ const BODY = 0.035;
 const growsUp = (scene) => scene.drawing?.vertical === "up";
 
 /**
- * The part of the plane to show: the scene's own view, widened about its centre if the motion leaves it; of space as it is
+ * The part of the plane to show: the scene's own view, widened to the sides on which the motion leaves it; of space as it is
  * seen from the front, so that who turns it comes no nearer and goes no further.
  * @param {Scene} scene @param {Trajectory} trajectory
  * @returns {Box}
@@ -88,7 +88,18 @@ function widened(own, paths) {
     return paths.every((path) => path.filter((point) => holds(box, point, margin)).length >= part * path.length);
   };
   const all = steps.slice(0, CHEAP + 1).find((box) => isSeen(box, 1));
-  return all ?? steps.find((box) => isSeen(box, SEEN)) ?? steps[STEPS];
+  return trimmed(all ?? steps.find((box) => isSeen(box, SEEN)) ?? steps[STEPS], steps, paths.flat());
+}
+
+/** Without what is empty on sides to which the motion does not go. @param {Box} box @param {Box[]} steps from the scene's own view on @param {readonly Pixel[]} points @returns {Box} */
+function trimmed(box, steps, points) {
+  const margin = BODY * Math.min(box[1] - box[0], box[3] - box[2]);
+  const held = points.filter((point) => holds(box, point, margin));
+  const side = (/** @type {number} */ i) => {
+    const nearer = steps.map((step) => /** @type {Box} */ (box.map((end, j) => (i === j ? step[i] : end))));
+    return (nearer.find((one) => held.every((point) => holds(one, point, margin))) ?? box)[i];
+  };
+  return [side(0), side(1), side(2), side(3)];
 }
 
 /**

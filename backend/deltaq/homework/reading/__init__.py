@@ -5,10 +5,10 @@ from __future__ import annotations
 from ...language.parser import Syntax
 from ..solution import Solution
 from ..task import Task
-from .candidates import Candidate, candidates, sums, units_of
+from .candidates import Candidate, candidates, sums
 from .reader import Claim, Reading
 
-__all__ = ["Candidate", "Claim", "Reading", "candidates", "read", "sums", "units_of"]
+__all__ = ["Candidate", "Claim", "Reading", "candidates", "read", "sums"]
 
 
 def read(task: Task, solution: Solution, text: str, syntax: Syntax, *, decimal_comma: bool = False) -> Reading:

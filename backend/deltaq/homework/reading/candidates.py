@@ -17,8 +17,8 @@ from ...language.plain_printer import plain
 from ...language.tokens import fail
 from ...language.tree import Equation, Node, Span, Sum, Vector
 from ...mechanics.homogeneity import DimensionCheck
-from ...mechanics.scene import Scene
-from ...mechanics.units import Dimension, dimension_of
+from ...mechanics.reaction_units import units_of
+from ...mechanics.units import Dimension
 from ..equality import Parts
 from ..solution import Solution
 from ..task import Task
@@ -148,12 +148,6 @@ def _wanted(task: Task, solution: Solution) -> Dimension | None:
     except InputError:
         return None
     return next((one for one in known if isinstance(one, Dimension)), None)
-
-
-def units_of(scene: Scene) -> dict[str, Dimension | None]:
-    """The dimension of every name of a scene; None where it states no unit."""
-    units = {c.name: dimension_of(c.unit) for c in scene.coordinates} | {"t": dimension_of("s")}
-    return units | {p.name: dimension_of(p.unit) for p in scene.parameters}
 
 
 def sums(tree: Node) -> list[Node]:
