@@ -63,6 +63,12 @@ class Assets:
     def bundled(self) -> bool:
         return (self.root / NAMED_BY_CONTENT).is_dir()
 
+    @property
+    def pages(self) -> frozenset[str]:
+        """The names of all pages."""
+        site = read_site(self.root)
+        return frozenset(site.pages) if site else frozenset()
+
     def page(self, name: str, sheets: Iterable[str] = (), content: Content | None = None) -> Document | None:
         """The page of a name, with further sheets of the import map and content; None if there is no such page."""
         site = read_site(self.root)

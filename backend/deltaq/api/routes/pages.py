@@ -16,6 +16,7 @@ from ...vocabulary import Language
 from ..assets import ASK_AGAIN, Asset
 from ..headers import content_security_policy
 from ..languages import language_of
+from ..lost_page import lost_page
 from ..page import Content
 from ..problem_pages import explained, overview, page_of, unknown
 from ..problems import TYPES, ProblemType
@@ -114,9 +115,14 @@ def _explained(request: Request, kind: ProblemType | None, language: Language) -
 
 @router.api_route("/{path:path}", methods=["GET", "HEAD"])
 def file(request: Request, path: str) -> Response:
-    """A file of the pages, or a page by its name without suffix."""
-    asset = service_of(request).assets.find(path)
-    return _page(request, path) if asset is None else _file(request, asset)
+    """A file of the pages, or a page by its name without suffix; who reads is told where the pages are."""
+    assets = service_of(request).assets
+    asset = assets.find(path)
+    if asset is not None:
+        return _file(request, asset)
+    if assets.page(path) is None and "text/html" in request.headers.get("accept", ""):
+        return _page(request, PROBLEMS, content=lost_page(path, assets.pages, language_of(request)), status=404)
+    return _page(request, path)
 
 
 def _page(
