@@ -106,6 +106,21 @@ function hung(rows, most, wide) {
   });
 }
 
+/**
+ * A term whose columns go on below, at the outermost signs of their entries; where that is not enough each side of the
+ * equation is by itself, and only then an entry is broken within its brackets.
+ * @param {string} term @param {number} most @param {Wide} wide @returns {string[]}
+ */
+function columned(term, most, wide) {
+  if (wide(term) <= most) return [term];
+  const whole = narrowed(term, most, wide, (entry, width) => lined(cut(entry, joins), width, wide));
+  if (wide(whole) <= most) return [whole];
+  const sides = cut(term, (token, before) => token === "=" && before.trim() !== "");
+  if (sides.length > 1 && sides.slice(1).every((side) => side.includes("\\begin{bmatrix}")))
+    return sides.flatMap((side) => columned(side, most, wide));
+  return [narrowed(term, most, wide, (entry, width) => linesOf(entry, width, wide))];
+}
+
 /** A row whose right side is to be at most `most` em wide. @param {string} row @param {number} most @param {Wide} wide @param {boolean} close @returns {string[]} */
 function broken(row, most, wide, close) {
   const [begin, whole] = sidesOf(row);
@@ -113,9 +128,7 @@ function broken(row, most, wide, close) {
   const hangs = whole.trimStart().startsWith(HANGING);
   const [lead, right] = hangs ? [HANGING, whole.trimStart().slice(HANGING.length)] : ["", whole];
   const least = most - Math.max(wide(lead), INDENTED);
-  const terms = termsOf(right, least, wide).map((term) =>
-    narrowed(term, least, wide, (entry, width) => linesOf(entry, width, wide)),
-  );
+  const terms = termsOf(right, least, wide).flatMap((term) => columned(term, least, wide));
   return lined(terms, most, wide, lead, close).map((line, i) => (i ? `& ${INDENT}${line}` : `${begin} ${line}`));
 }
 

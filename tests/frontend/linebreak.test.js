@@ -68,6 +68,16 @@ test("of two columns that are too wide together, the wider one goes on below, an
   assert.ok(found.includes(right), found);
 });
 
+test("a column of short entries is rather below the matrix than broken within brackets", () => {
+  const matrix = "\\begin{bmatrix} aaaa & bbbb & cccc \\\\ dddd & eeee & ffff \\end{bmatrix}\\,\\begin{bmatrix} x \\\\ y \\end{bmatrix}";
+  const right = "\\begin{bmatrix} 0 \\\\ -(1 + e) \\dot{x} \\end{bmatrix}";
+  const found = broken(`\\begin{aligned}\\Longleftrightarrow\\; & ${matrix} = ${right}\\end{aligned}`, 0.95);
+  assert.equal(
+    squeezed(found),
+    squeezed(`\\begin{aligned}\\Longleftrightarrow\\; & ${matrix} \\\\[0.2em] & \\qquad {}= ${right}\\end{aligned}`),
+  );
+});
+
 test("a matrix without a name, or of short entries, is one thing", () => {
   const matrix = "\\begin{aligned}M &= \\begin{bmatrix} a + b & c \\\\ c & d - e \\end{bmatrix}\\end{aligned}";
   assert.equal(squeezed(broken(matrix, 0.2)), squeezed(matrix));
