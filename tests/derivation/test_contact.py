@@ -101,6 +101,19 @@ def test_a_wall_that_moves_may_feed_energy() -> None:
     assert same(system, found["impact-loss", ""].subs(at_rest), "-m*(1 + e)**2*u**2/2", *names)
 
 
+def test_a_gap_that_only_guides_change_has_no_impact() -> None:
+    """It has no direction for one; a contact beside it keeps its own, and its name."""
+    wall, hit = ({"name": name, "value": value, "then": "bounce", "restitution": "e"}
+                 for name, value in (("wall", "2*y + 3"), ("hit", "y - x")))  # fmt: skip
+    guided = {**on_line(events=[wall, hit]), "guides": [{"coordinate": "y", "value": "1 + u*sin(t)"}]}
+    system, derivation = derived(guided)
+    contact = [step.id for step in derivation.steps() if step.rule in ("contact-gap", "impact-law")]
+    assert contact == ["contact-gap:hit", "impact-law:hit"]
+    found = quantities(derivation, "impact-law")
+    rate = "dx - u*cos(t)"
+    assert same(system, found["momentum-jump", "x"], f"-(1 + e)*m*({rate})", "m", "e", "u", "t")
+
+
 def test_what_holds_a_block_and_how_long() -> None:
     """A block on a belt of speed u is held by k (x − y), up to S, while another block slips by itself."""
     friction = {"kind": "friction", "name": "belt", "coordinate": "x", "force": "F", "static": "S", "surface_rate": "u"}

@@ -225,6 +225,8 @@ WRONG = [
                 Problem("bounce-with-rate", "/events/0/value", parameters={"coordinate": "phi"}),
             ),
             ({"value": "1 - abs(phi)"}, Problem("bounce-not-smooth", "/events/0/value", 4, 8, {"function": "abs"})),
+            ({"value": "1 + 0*phi"}, Problem("bounce-without-coordinates", "/events/0/value")),
+            ({"value": "l - l"}, Problem("bounce-without-coordinates", "/events/0/value")),
         )
     ),
     *(

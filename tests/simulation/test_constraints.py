@@ -30,7 +30,7 @@ from deltaq.simulation.consistency import consistent
 from deltaq.simulation.driver import simulate
 from deltaq.simulation.library import get_method, method_ids
 from deltaq.simulation.problem import Floats, Problem
-from deltaq.simulation.service import problem_of
+from deltaq.simulation.service import problem_of, run
 from deltaq.simulation.trajectory import Trajectory
 
 
@@ -165,6 +165,18 @@ def test_parts_that_do_not_fit_are_refused_at_their_constraint() -> None:
     assert [(problem.code, problem.pointer) for problem in caught.value.problems] == [
         ("constraint-not-met", "/constraints/0")
     ]
+
+
+@pytest.mark.parametrize(
+    "change",
+    [{"parameters": {"c": 1e-300}}, {"parameters": {"s": 1e-15}}, {"initial": {"phi1": {"value": 1e300}}}],
+    ids=["no length", "a short one", "an angle without digits"],
+)
+def test_numbers_with_which_constraints_cannot_be_kept_are_refused_at_one(change: dict[str, object]) -> None:
+    with pytest.raises(SceneError) as caught:
+        run({"scene": "four-bar", "t_end": 1.0, "samples": 11, **change})
+    (problem,) = caught.value.problems
+    assert (problem.code, problem.pointer[:-1]) == ("constraint-not-met", "/scene/constraints/")
 
 
 def doubled(scene: Scene, t_end: float) -> Problem:

@@ -49,8 +49,8 @@ class Held:
 
 
 def bouncing(system: System) -> tuple[Event, ...]:
-    """The events at which bodies meet and part again."""
-    return tuple(event for event in system.scene.events if event.bounces)
+    """The events at which bodies meet and part again; not those whose gap no free coordinate changes."""
+    return tuple(event for event in system.scene.events if event.bounces and slopes(system, event))
 
 
 def frictions(system: System) -> tuple[Friction, ...]:

@@ -1,4 +1,6 @@
-"""Whether constraints say different things, in plain numbers: the rows aᵢ = ∂u/∂q̇ᵢ or ∂g/∂qᵢ at random configurations.
+"""Whether constraints say different things, and gaps anything, in plain numbers.
+
+Constraints are looked at by the rows aᵢ = ∂u/∂q̇ᵢ or ∂g/∂qᵢ at random configurations.
 
 Constraints whose rows depend on one another everywhere are functions of one another: one of them says nothing new, or
 contradicts the others. Rows that do so only where the constraints hold (a parallelogram with three rods) are for the
@@ -39,6 +41,18 @@ def independence_problems(scene: Scene) -> Iterator[Problem]:
     ties = [each.tie() for each in found]
     if not idle and ties and all(ties):
         yield _tied(scene, found, min(ties, key=len))
+
+
+def gap_problems(scene: Scene) -> Iterator[Problem]:
+    """Impacts whose gap no coordinate changes, so that they would have no direction."""
+    names = [coordinate.name for coordinate in scene.coordinates]
+    for index, event in enumerate(scene.events):
+        if not event.bounces or event.value.rates:
+            continue
+        rows = [[_slope(event.value.tree, point, name, STEP) for name in names] for point in _points(scene)]
+        known = [row for row in rows if all(map(math.isfinite, row))]
+        if known and not any(any(row) for row in known):
+            yield Problem("bounce-without-coordinates", f"/events/{index}/value")
 
 
 def _lengths(scene: Scene) -> Iterator[Problem]:

@@ -13,7 +13,7 @@ from ..language.tree import Rate, walk
 from .contributions import Friction
 from .definedness import definedness_problems
 from .homogeneity import SECOND, dimension_problems
-from .independence import independence_problems
+from .independence import gap_problems, independence_problems
 from .inertia import inertia_problems
 from .integrability import integrability_problems
 from .material import Material
@@ -38,7 +38,7 @@ def soundness_problems(scene: Scene) -> Iterator[Problem]:
     yield from _negative_friction(scene)
     accelerated = tuple(_accelerations(found))
     undefined = tuple(definedness_problems(scene, ((field.pointer, field.expression) for field in found)))
-    held = () if undefined else tuple(independence_problems(scene))
+    held = () if undefined else (*independence_problems(scene), *gap_problems(scene))
     yield from accelerated or undefined or held or tuple(inertia_problems(scene)) or integrability_problems(scene)
 
 

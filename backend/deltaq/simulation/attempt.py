@@ -134,7 +134,7 @@ class Integrator:
         def compared(pieces: Pieces) -> Attempt:
             fine = Steps(step, pieces=pieces, ratio=FINER, is_recorded=True)
             runs = self._both(Steps(step, pieces=whole), fine)
-            return Attempt(runs[0], runs, estimate(self.judge, *runs, self.refinement.factor_of_coarse))
+            return Attempt(runs[0], runs, self._estimated(*runs, self.refinement.factor_of_coarse))
 
         found, pieces = self._seen(self.audit.before(USUAL), compared)
         if not pieces.is_whole or self.problem.model.tape.has_choices:
@@ -157,6 +157,10 @@ class Integrator:
         of_fine = estimate(self.judge, fine, third, self.refinement.factor_of_coarse)
         return replace(found, estimate=larger(of_given, of_fine), discarded=(*found.discarded, third))
 
+    def _estimated(self, coarse: Run, fine: Run, factor: float) -> Estimate | None:
+        """The error by two runs; None where one of them has not even a first sample."""
+        return estimate(self.judge, coarse, fine, factor) if len(coarse.times) and len(fine.times) else None
+
     def pair(self, resolution: float, pieces: Pieces, before: Attempt | None = None) -> tuple[Attempt, Pieces]:
         """Two runs at a resolution, and the pieces in which the finer one was nowhere blind.
 
@@ -170,7 +174,7 @@ class Integrator:
             of_coarse = replace(coarse, pieces=pieces)
             runs = self._both(of_coarse, of_fine) if known is None else (known, self._finer(of_fine))
             factor, answer = self._factor(*runs), self.refinement.answer
-            return Attempt(runs[answer], runs, estimate(self.judge, *runs, factor), is_shared=known is not None)
+            return Attempt(runs[answer], runs, self._estimated(*runs, factor), is_shared=known is not None)
 
         return self._seen(pieces, compared)
 

@@ -82,6 +82,14 @@ def consistent_start(model: Model, parameters: Floats, values: Floats, rates: Fl
     return Start(found, speeds, rank, tuple(int(k) for k in np.flatnonzero(free > SHARES)))
 
 
+def unmet(problem: Problem) -> SceneError:
+    """That constraints cannot be kept where a problem begins: with numbers whose digits end before it matters."""
+    held, values = _Held(problem.model, np.array(problem.parameters)), np.array(problem.values)
+    worst = held.worst(values)
+    gap = float(np.nan_to_num(held.gaps(values, np.array(problem.rates))[worst]))
+    return _refused("constraint-not-met", problem.model.layout.constraints[worst], gap)
+
+
 def _refused(code: str, place: int, gap: float) -> SceneError:
     return SceneError(Mistake(code, f"/constraints/{place}", parameters={"gap": short(float(abs(gap)))}))
 

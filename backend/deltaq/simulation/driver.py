@@ -15,6 +15,7 @@ from ..model.modes import Modes, modes_of
 from .attempt import Attempt, Integrator
 from .audit import Audit, GuideJump
 from .conclusion import outcome
+from .consistency import unmet
 from .estimate import Estimate
 from .event import EventOccurrence
 from .integration import Flag
@@ -44,7 +45,7 @@ def simulate(
 
     The tolerance is absolute for coordinates below 1 and relative above. Without `with_error` there is one run and no
     estimate. `cancelled`, shape (1,), ends the runs when it is not 0. Raises ValueError unless one of step and
-    tolerance is given.
+    tolerance is given, and SceneError where constraints cannot be kept even at the start.
     """
     if (step is None) == (tolerance is None):
         raise ValueError("give either a step or a tolerance")
@@ -115,6 +116,8 @@ def _trajectory(
     guide_jump: GuideJump | None,
 ) -> Trajectory:
     best = max(attempts, key=_merit)
+    if problem.is_constrained and not min(len(run.times) for run in best.runs):
+        raise unmet(problem)
     found, n = best.estimate, problem.degrees
     is_reached = None if tolerance is None or found is None else found.worst <= tolerance and best.is_complete
     transitions = _transitions(best)

@@ -11,7 +11,7 @@ from .constraints import Reactions, is_locked, pivot_of
 from .event import Approach, Event, approaches, first_event, quick_event
 from .integration import Flag, KernelArguments, is_kicked, motion_of, run_kernel, watch_of
 from .kernels.loop import Result
-from .kernels.motion import EVENT, FINE, HELD, LOCKED, SINGULAR, STEP_LIMIT, STIFF
+from .kernels.motion import EVENT, FINE, HELD, LOCKED, NEWTON_FAILED, SINGULAR, STEP_LIMIT, STIFF
 from .kernels.plan import CAPACITY, COUNT, STRIDE, Plan, make_plan
 from .kernels.step_control import Control
 from .method import Method, Series
@@ -169,6 +169,8 @@ def _found(arguments: KernelArguments, plan: Plan, result: Result, wall_time: fl
         result, conditioning = _told_apart(result, memory), min(conditioning, pivot_of(memory))
     if problem.reactions:
         out, reactions = reactions_at(problem, times[:good], out[:good])
+        if len(out) < good and result.outcome in (FINE, EVENT):  # what the samples did not come to is not known
+            result = result._replace(outcome=NEWTON_FAILED, reached=float(times[len(out)]), samples=len(out))
         good = len(out)
     return Run(
         times[:good],

@@ -76,13 +76,14 @@ def _run(document: Mapping[str, object]) -> Document:
 
 
 def _simulated(request: Request, choice: Choice, problem: Problem, compile_time: float) -> Document:
-    trajectory = simulate(
-        problem,
-        choice.method,
-        step=request.step,
-        tolerance=request.tolerance,
-        with_error="error" in request.include,
-    )
+    with inside("/scene"):  # where its constraints cannot be kept
+        trajectory = simulate(
+            problem,
+            choice.method,
+            step=request.step,
+            tolerance=request.tolerance,
+            with_error="error" in request.include,
+        )
     states = np.hstack([trajectory.values, trajectory.rates])
     seen = problem.model.observe(problem.inputs(trajectory.times, states))
     watts = power(problem, trajectory.times, states, trajectory.stretches)
