@@ -14,6 +14,7 @@ from playwright.sync_api import Page, expect
 from tests.e2e.lecture import Lecture
 from tests.e2e.test_figure import numbers_in
 from tests.e2e.test_plots import open_plots
+from tests.e2e.waiting import PATIENCE
 
 pytestmark = pytest.mark.e2e
 
@@ -22,7 +23,7 @@ SVG = "{http://www.w3.org/2000/svg}"
 
 def take(page: Page, form: str, folder: Path) -> Path:
     """The file that the dialog of sharing offers by a name with `form` in it."""
-    with page.expect_download(timeout=120_000) as download:
+    with page.expect_download(timeout=PATIENCE) as download:
         page.get_by_role("dialog").get_by_role("button", name=f"({form})").click()
     path = folder / download.value.suggested_filename
     download.value.save_as(path)

@@ -11,7 +11,7 @@ from playwright.sync_api import Page
 Found = TypeVar("Found")
 # Milliseconds until a page that does not come to what is expected is called broken. Waiting costs nothing where all is
 # well, and a busy machine is not an error: this is the one place where browser tests say how long is too long.
-PATIENCE = 120_000.0
+PATIENCE = 300_000.0
 PAUSE = 50.0  # milliseconds between two looks
 
 
