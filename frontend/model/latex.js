@@ -58,6 +58,15 @@ export function entriesOf(body) {
 /** Every matrix of a formula made into something else. @param {string} latex @param {(matrix: string, entries: string[][]) => string} make */
 export const withMatrices = (latex, make) => latex.replace(MATRIX, (matrix, _, body) => make(matrix, entriesOf(body)));
 
+/** From one row of a matrix with fractions to the next, beyond what others have: set as closely they would touch. */
+const AIR = "\\\\[0.3em] ";
+
+/** Matrices with fractions, their rows apart. @param {string} latex */
+export const airy = (latex) =>
+  latex.replace(MATRIX, (matrix) =>
+    /\\[dt]?frac/.test(matrix) ? matrix.replace(/\\\\(?!\[)\s*/g, () => AIR) : matrix,
+  );
+
 /** A matrix is as wide as its columns, each as wide as its widest entry. @param {string[][]} entries */
 function width(entries) {
   const columns = Math.max(...entries.map((row) => row.length));

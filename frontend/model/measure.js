@@ -3,7 +3,7 @@
  * sizes of letters: in em of the formula, and without a browser. What is typeset in the end is a few percent from it.
  */
 
-import { endsRow, tokensOf } from "./latex.js";
+import { airy, endsRow, tokensOf } from "./latex.js";
 import { beside, letter, NOTHING } from "./letters.js";
 
 /** @typedef {import("./letters.js").Box} Box */
@@ -148,6 +148,8 @@ function matrix(reader, style) {
     columns[column] = Math.max(columns[column] ?? 0, entry.width);
     row = { height: Math.max(row.height, entry.height), depth: Math.max(row.depth, entry.depth) };
     const end = reader.tokens[reader.at] ?? "";
+    const [, gap = "0"] = end.match(/\[([\d.]+)em\]/) ?? [];
+    row.depth = Math.max(row.depth, Number(gap) && 0.36 + Number(gap));
     column = end === "&" ? column + 1 : 0;
     if (end !== "&") [total, row] = [total + row.height + row.depth, { height: 0.84, depth: 0.36 }];
     if (end === "&" || endsRow(end)) reader.at += 1;
@@ -201,7 +203,7 @@ function nucleus(reader, style) {
 
 /** @param {string} latex @returns {Box} */
 export function sizeOf(latex) {
-  const reader = { tokens: tokensOf(latex).filter((token) => token.trim()), at: 0 };
+  const reader = { tokens: tokensOf(airy(latex)).filter((token) => token.trim()), at: 0 };
   return beside(
     list(reader, { scale: 1, display: true }, () => false),
     { scale: 1, display: true },

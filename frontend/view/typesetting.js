@@ -1,5 +1,6 @@
 /** KaTeX into the DOM; what it refuses is shown as plain text. */
 
+import { airy } from "../model/latex.js";
 import { areOfFormulas } from "../model/prose.js";
 
 /** Display formulas shrink to this part of their size, 11 pixels on a phone, before they scroll. */
@@ -16,7 +17,7 @@ export const isNamed = (element) => element.hasAttribute("aria-label");
 /** @param {HTMLElement} element @param {string} latex @param {boolean} display @param {"html" | "mathml" | "htmlAndMathml"} [output]  to be seen, to be heard, or both */
 export function typeset(element, latex, display, output = isNamed(element) ? "html" : "htmlAndMathml") {
   try {
-    globalThis.katex.render(latex, element, {
+    globalThis.katex.render(airy(latex), element, {
       displayMode: display,
       output,
       trust: onlyClasses,

@@ -8,7 +8,7 @@ import re
 import pytest
 from playwright.sync_api import Locator, Page, expect
 from tests.e2e.lecture import Lecture
-from tests.e2e.waiting import until, until_equal
+from tests.e2e.waiting import at_rest, until, until_equal
 
 pytestmark = pytest.mark.e2e
 
@@ -76,8 +76,7 @@ def test_the_guide_adds_to_the_differential_alone(lecture: Lecture) -> None:
 
 def drag(page: Page, start: tuple[float, float], end: tuple[float, float]) -> None:
     """From one place of the drawing to another, in pixels of its frame, with the hand still down."""
-    box = page.locator(".drawing").bounding_box()
-    assert box is not None
+    box = at_rest(page.locator(".drawing"))
     page.mouse.move(box["x"] + start[0], box["y"] + start[1])
     page.mouse.down()
     page.mouse.move(box["x"] + (start[0] + end[0]) / 2, box["y"] + (start[1] + end[1]) / 2, steps=3)
@@ -160,10 +159,12 @@ def test_energy_bars_paths_and_the_phase_portrait(lecture: Lecture) -> None:
     page.locator(".figure-tools").get_by_role("button", name="Phase portrait").click()
     expect(page).to_have_url(re.compile("with=bars%2Cpaths%2Cphase"))
     expect(page.locator(".phase path.curve")).to_have_count(1)
-    curve = page.locator(".phase path.curve").bounding_box()
-    assert curve is not None
-    page.mouse.click(curve["x"] + 2, curve["y"] + curve["height"] / 2)
-    until(page, lambda: middle_of(page.locator(".phase .state")), lambda x: abs(x - curve["x"]) < 8)
+    portrait = page.locator(".phase")
+    frame, curve = at_rest(portrait), at_rest(page.locator(".phase path.curve"))
+    # By the portrait, not by the page: the click waits until nothing moves or covers it.
+    left = curve["x"] - frame["x"]
+    portrait.click(position={"x": left + 2, "y": curve["y"] - frame["y"] + curve["height"] / 2})
+    until(page, lambda: middle_of(page.locator(".phase .state")) - at_rest(portrait)["x"], lambda x: abs(x - left) < 8)
     expect(page).to_have_url(re.compile(r"at=\d"))
 
 
@@ -242,8 +243,7 @@ def test_one_picture_at_a_time(lecture: Lecture) -> None:
     """Steps go on and back by a twenty-fifth of a second, and stop the motion."""
     page = open_at_rest(lecture, "?scene=pendulum&lang=en&at=1")
     page.locator(".plots.ready").wait_for()
-    plots = page.locator(".plots").bounding_box()
-    assert plots is not None
+    plots = at_rest(page.locator(".plots"))
     # The plots show the moment, too.
     shown = (plots["x"] + 0.1 * plots["width"], plots["x"] + 0.2 * plots["width"])
     until(page, lambda: middle_of(page.locator(".cursor")), lambda x: shown[0] < x < shown[1])

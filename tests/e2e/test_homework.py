@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 from playwright.sync_api import Browser, Locator, Page, expect
 from tests.e2e.lecture import Lecture
-from tests.e2e.waiting import PATIENCE, until_equal
+from tests.e2e.waiting import PATIENCE, at_rest, until_equal
 
 pytestmark = pytest.mark.e2e
 FALLING = "m*l^2*ddot(phi) = m*g*l*sin(phi)"
@@ -517,8 +517,7 @@ def _drag(page: Page, block: str, onto: str) -> None:
     page.mouse.down()
     target = page.locator(f"[data-block={onto}]")
     for _ in range(3):  # what is hidden comes into view on the way
-        box = target.bounding_box()
-        assert box
+        box = at_rest(target)
         page.mouse.move(box["x"] + 20, box["y"] + 4, steps=3)
     expect(target).to_have_attribute("data-drop", "before")
     page.mouse.up()

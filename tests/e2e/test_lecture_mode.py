@@ -313,6 +313,21 @@ def test_terms_fly_to_what_becomes_of_them(hall: Lecture, motion: Literal["no-pr
     expect(page.locator(".flight")).to_have_count(0)
 
 
+def test_the_presenter_calls_bodies_as_the_slide_does(hall: Lecture) -> None:
+    """By numbers where their names are long, with what each of them stands for."""
+    page = hall.page
+    opened(page, hall.address, "quarter-car", "kinetic-energy")
+    page.locator(".slide[data-filled]").wait_for()
+    with page.context.expect_page() as beside:
+        page.keyboard.press("s")
+    now = beside.value.locator(".presenter .now")
+    told = page.locator(".slide .numbered").all_text_contents()
+    assert len(told) == 2
+    expect(now.locator(".numbered")).to_have_text(told)
+    result = page.locator(".slide .result .formula .katex-html").all_text_contents()
+    until_equal(beside.value, now.locator(".formula .katex-html").all_text_contents, result)
+
+
 def test_the_presenter_sees_what_comes_and_leads(hall: Lecture) -> None:
     page = hall.page
     with page.context.expect_page() as opened:

@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 from playwright.sync_api import FilePayload, Page, expect
 from tests.e2e.lecture import Lecture
-from tests.e2e.waiting import until_equal
+from tests.e2e.waiting import at_rest, until_equal
 
 pytestmark = pytest.mark.e2e
 
@@ -135,7 +135,7 @@ def test_a_lecture_is_complete_when_its_measurements_are(lecture: Lecture) -> No
 
 def stroke(page: Page, board: str) -> Callable[[], int]:
     """Draws a line over the slide; how many lines there are."""
-    box = page.locator(board).bounding_box() or {"x": 0, "y": 0, "width": 0, "height": 0}
+    box = at_rest(page.locator(board))
     left, top = box["x"] + box["width"] / 4, box["y"] + box["height"] / 2
     page.mouse.move(left, top)
     page.mouse.down()

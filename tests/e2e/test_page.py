@@ -8,7 +8,7 @@ from urllib.parse import parse_qs, urlsplit
 import pytest
 from playwright.sync_api import Page, Request, expect
 from tests.e2e.lecture import Lecture
-from tests.e2e.waiting import frames, until, until_equal
+from tests.e2e.waiting import at_rest, frames, until, until_equal
 
 pytestmark = pytest.mark.e2e
 
@@ -217,8 +217,7 @@ def test_the_plot_and_the_drawing_share_a_clock(lecture: Lecture) -> None:
     lecture.open()
     lecture.page.locator(".plots.ready").wait_for()
     assert lecture.page.locator(".plots .scatterlayer .trace").count() >= 5
-    box = lecture.page.locator(".plots").bounding_box()
-    assert box is not None
+    box = at_rest(lecture.page.locator(".plots"))
     time = lecture.page.locator(".time")
     for part in (0.3, 0.8):
         before, place = time.text_content() or "", lecture.bob.get_attribute("transform") or ""

@@ -9,7 +9,7 @@ import pytest
 from playwright.sync_api import Page, expect
 from tests.e2e.lecture import Lecture
 from tests.e2e.test_figure import numbers_in, open_at_rest
-from tests.e2e.waiting import until, until_equal
+from tests.e2e.waiting import at_rest, until, until_equal
 
 pytestmark = pytest.mark.e2e
 
@@ -31,8 +31,7 @@ def test_values_are_read_under_the_pointer_and_at_the_moment(lecture: Lecture) -
     page = open_plots(lecture, "?scene=elastic-pendulum&lang=en&at=2")
     shown = numbers_in(page.locator(".readouts .q-1 .number").text_content())[0]
     assert reading(page, "q-1") == pytest.approx(shown, abs=0.002)
-    plots = page.locator(".plots").bounding_box()
-    assert plots is not None
+    plots = at_rest(page.locator(".plots"))
     # Where the curve is lowest its slope is nothing: the place is known well enough.
     page.mouse.move(plots["x"] + plots["width"] / 2, plots["y"] + plots["height"] / 2)
     until(page, lambda: reading(page, "q-1"), lambda value: abs(value - shown) > 0.01)
@@ -68,8 +67,7 @@ def test_a_curve_is_hidden_by_its_name(lecture: Lecture) -> None:
 def test_a_part_of_the_time(lecture: Lecture) -> None:
     """By the wheel about the pointer, by Shift and a drag, by the menu's buttons; and all of it again."""
     page = open_plots(lecture, "?scene=pendulum&lang=en&at=1")
-    plots = page.locator(".plots").bounding_box()
-    assert plots is not None
+    plots = at_rest(page.locator(".plots"))
     shown = lambda: page.evaluate(f"{PLOTLY}._fullLayout.xaxis.range")
     y = plots["y"] + 0.3 * plots["height"]
     page.mouse.move(plots["x"] + plots["width"] / 2, y)

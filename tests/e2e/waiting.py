@@ -6,7 +6,7 @@ import time
 from collections.abc import Callable
 from typing import TypeVar
 
-from playwright.sync_api import Page
+from playwright.sync_api import FloatRect, Locator, Page
 
 Found = TypeVar("Found")
 # Milliseconds until a page that does not come to what is expected is called broken. Waiting costs nothing where all is
@@ -26,6 +26,20 @@ def until(page: Page, read: Callable[[], Found], wanted: Callable[[Found], bool]
 
 def until_equal(page: Page, read: Callable[[], Found], wanted: object) -> None:
     until(page, read, lambda found: found == wanted)
+
+
+def at_rest(part: Locator) -> FloatRect:
+    """Where it stands once it no longer moves: a hand that is sent to a place read before may miss what it was for."""
+    boxes: list[FloatRect | None] = [None]
+
+    def looked() -> bool:
+        boxes.append(part.bounding_box())
+        return boxes[-1] is not None and boxes[-1] == boxes[-2]
+
+    until(part.page, looked, bool)
+    box = boxes[-1]
+    assert box is not None
+    return box
 
 
 def frames(page: Page, count: int) -> None:

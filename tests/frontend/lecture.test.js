@@ -3,7 +3,7 @@ import { test } from "node:test";
 import { createReceiver, createSender, isId } from "../../frontend/model/lecture/link.js";
 import { keepNotes, noteOf, readNotes, withNote } from "../../frontend/model/lecture/notes.js";
 import { better, bounds, filling, formulaOf, laidOut, larger } from "../../frontend/model/lecture/filling.js";
-import { numberingOf } from "../../frontend/model/lecture/numbering.js";
+import { numberedIn, numberingBy } from "../../frontend/model/lecture/numbering.js";
 import { premisesOf, shortForm } from "../../frontend/model/lecture/premises.js";
 import { allOrNone, isConcluded, meant, onwards, partsOf, within } from "../../frontend/model/lecture/stops.js";
 import { clockText, elapsed, STOPPED, toggled } from "../../frontend/model/lecture/timer.js";
@@ -145,13 +145,13 @@ test("the presenter hears where the lecture stands, the derivation only when it 
   let place = { step: "a" };
   /** @type {any[]} */
   const [wishes, heard] = [[], []];
-  const sender = createSender(lecture, { here: () => ({ place, overlay: "", title: {}, chapters }), wish: (wish) => wishes.push(wish) });
+  const sender = createSender(lecture, { here: () => ({ place, overlay: "", title: {}, bodies: [], chapters }), wish: (wish) => wishes.push(wish) });
   const receiver = createReceiver(presenter, (here) => heard.push(here));
-  assert.deepEqual(heard.pop(), { kind: "here", place, overlay: "", title: {}, chapters });
+  assert.deepEqual(heard.pop(), { kind: "here", place, overlay: "", title: {}, bodies: [], chapters });
   place = { step: "b" };
   sender.tell();
   sender.tell();
-  assert.deepEqual(heard, [{ kind: "here", place, overlay: "", title: {} }]);
+  assert.deepEqual(heard, [{ kind: "here", place, overlay: "", title: {}, bodies: [] }]);
   receiver.wish({ kind: "go", by: 1 });
   assert.deepEqual(wishes, [{ kind: "go", by: 1 }]);
 });
@@ -190,7 +190,7 @@ const NAMES = /** @type {Record<string, string>} */ ({ a: "upper bob", b: "lower
 
 test("bodies with long names are called by the numbers of their masses, else by their order, and who is who is told", () => {
   const latex = "\\mathbf{r}_{\\text{upper bob}} + \\mathbf{F}_{\\text{weight}, \\text{lower\\_bob}}";
-  const by = (/** @type {string[]} */ ...masses) => numberingOf(bodiesOf(...masses), (body) => NAMES[body]);
+  const by = (/** @type {string[]} */ ...masses) => numberingBy(numberedIn(bodiesOf(...masses), (body) => NAMES[body]));
   assert.equal(by("m", "M").short(latex), "\\mathbf{r}_{2} + \\mathbf{F}_{\\text{weight}, 1}");
   assert.equal(by("m", "m").short(latex), "\\mathbf{r}_{1} + \\mathbf{F}_{\\text{weight}, 2}");
   assert.deepEqual(by("m", "M").within(["x", latex.slice(0, 35)]), [{ number: "2", name: "upper bob" }]);
@@ -198,7 +198,7 @@ test("bodies with long names are called by the numbers of their masses, else by 
 
 test("a single body, or bodies with short names, are called as they are", () => {
   for (const [scene, names] of /** @type {[any, Record<string, string>][]} */ ([[bodiesOf("m"), NAMES], [bodiesOf("m", "M"), { a: "cart", b: "bob" }], [undefined, {}]])) {
-    const numbering = numberingOf(scene, (body) => names[body]);
+    const numbering = numberingBy(numberedIn(scene, (body) => names[body]));
     assert.equal(numbering.short("\\text{upper bob} \\text{cart}"), "\\text{upper bob} \\text{cart}");
     assert.deepEqual(numbering.within(["\\text{cart}"]), []);
   }

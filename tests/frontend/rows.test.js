@@ -1,6 +1,7 @@
 import { strict as assert } from "node:assert";
 import { createRequire } from "node:module";
 import { test } from "node:test";
+import { airy } from "../../frontend/model/latex.js";
 import { sizeOf } from "../../frontend/model/measure.js";
 import { planned } from "../../frontend/model/rows.js";
 
@@ -24,11 +25,11 @@ for (const [name, latex, wanted] of WIDTHS) {
 
 const HEIGHTS = [
   "\\frac{\\mathrm{d}}{\\mathrm{d} t}\\left(\\frac{\\partial L}{\\partial \\dot{\\varphi}_1}\\right)", "\\frac{1}{2} m v^2", "m^{2}", "\\ddot{\\varphi}_1",
-  "\\begin{bmatrix} a & b \\\\ c & d \\end{bmatrix}", "\\begin{bmatrix} a \\\\ \\frac{a}{b} \\\\ d \\end{bmatrix}", "\\left(\\frac{\\frac{a}{b}}{c}\\right)^{2}", "\\sqrt{\\frac{g}{\\ell}}",
+  "\\begin{bmatrix} a & b \\\\ c & d \\end{bmatrix}", "\\begin{bmatrix} a \\\\ \\frac{a}{b} \\\\ d \\end{bmatrix}", "\\begin{bmatrix} \\frac{1}{2} a \\cos\\varphi \\\\ \\frac{1}{2} a \\sin\\varphi \\\\ \\frac{a}{b} \\end{bmatrix}", "\\left(\\frac{\\frac{a}{b}}{c}\\right)^{2}", "\\sqrt{\\frac{g}{\\ell}}",
 ];
-/** What KaTeX makes of it. @param {string} latex */
+/** What KaTeX makes of it on the page. @param {string} latex */
 function setHeights(latex) {
-  const [, total, below] = katex.renderToString(`{\\displaystyle ${latex}}`, { output: "html" }).match(/strut" style="height:([\d.]+)em;(?:vertical-align:-([\d.]+)em)?/);
+  const [, total, below] = katex.renderToString(`{\\displaystyle ${airy(latex)}}`, { output: "html" }).match(/strut" style="height:([\d.]+)em;(?:vertical-align:-([\d.]+)em)?/);
   return { height: Number(total) - Number(below ?? 0), depth: Number(below ?? 0) };
 }
 for (const latex of HEIGHTS) {
@@ -37,6 +38,18 @@ for (const latex of HEIGHTS) {
     for (const side of /** @type {const} */ (["height", "depth"])) assert.ok(Math.abs(found[side] - wanted[side]) < 0.2, `${side} ${found[side]} for ${wanted[side]}`);
   });
 }
+
+test("fractions in neighbouring rows of a matrix do not touch, and rows without them stay where they are", () => {
+  const total = (/** @type {string[]} */ ...rows) => {
+    const { height, depth } = setHeights(`\\begin{bmatrix} ${rows.join(" \\\\ ")} \\end{bmatrix}`);
+    return height + depth;
+  };
+  const one = setHeights("\\textstyle\\frac{1}{2}");
+  const apart = (total(...Array(6).fill("\\frac{1}{2}")) - total(...Array(3).fill("\\frac{1}{2}"))) / 3;
+  assert.ok(apart >= one.height + one.depth + 0.15, `${apart} for ${one.height + one.depth}`);
+  assert.ok(Math.abs((total(...Array(6).fill("a")) - total(...Array(3).fill("a"))) / 3 - 1.2) < 0.01);
+  assert.equal(airy("\\begin{bmatrix*}[l] \\frac{a}{b} \\\\[0.6em] c \\end{bmatrix*}"), "\\begin{bmatrix*}[l] \\frac{a}{b} \\\\[0.6em] c \\end{bmatrix*}");
+});
 
 const LEAST = { bearable: 0.78, smallest: 0.56 };
 const SUM = "\\begin{aligned}E &= aaaa + bbbb - cccc + dddd \\\\[0.85em] F &= e\\end{aligned}";

@@ -7,6 +7,7 @@
  * @property {Place} place
  * @property {import("../types.js").Overlay} overlay
  * @property {Record<string, string>} title  of the scene, by language
+ * @property {import("./numbering.js").Numbered[]} bodies  that are called by numbers on the slide
  * @property {import("../types.js").Chapter[]} [chapters]  when they are new, or were asked for
  */
 /** @typedef {{kind: "hello"} | {kind: "go", by: number} | {kind: "within", by: number} | {kind: "goTo", step: string, part?: number} | {kind: "overlay", name: "black"} | {kind: "play"}} Wish */

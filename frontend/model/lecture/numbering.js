@@ -26,15 +26,19 @@ function numbersOf({ bodies, parameters }) {
 }
 
 /**
- * A single body needs no number, and bodies whose names are all short keep them.
- * @param {Pick<Scene, "bodies" | "parameters"> | null | undefined} scene @param {(body: string) => string} called @returns {Numbering}
+ * The bodies that are called by numbers: a single one needs none, and those whose names are all short keep them.
+ * @param {Pick<Scene, "bodies" | "parameters"> | null | undefined} scene @param {(body: string) => string} called @returns {Numbered[]}
  */
-export function numberingOf(scene, called) {
+export function numberedIn(scene, called) {
   const names = scene ? scene.bodies.map(({ name }) => called(name)) : [];
-  if (!scene || names.length < 2 || names.every(({ length }) => length <= SHORT))
-    return { short: (latex) => latex, within: () => [] };
+  if (!scene || names.length < 2 || names.every(({ length }) => length <= SHORT)) return [];
   const numbers = numbersOf(/** @type {Scene} */ (scene));
-  const all = names.map((name, i) => ({ name, number: numbers[i], text: upright(name) }));
+  return names.map((name, i) => ({ name, number: numbers[i] }));
+}
+
+/** @param {readonly Numbered[]} numbered @returns {Numbering} */
+export function numberingBy(numbered) {
+  const all = numbered.map((one) => ({ ...one, text: upright(one.name) }));
   return {
     short: (latex) => all.reduce((left, { text, number }) => left.replaceAll(text, number), latex),
     within: (formulas) =>

@@ -10,7 +10,7 @@ import { createAsking } from "./asking.js";
 import { createFilled } from "./filled.js";
 import { createFlights } from "./flights.js";
 import { createNewest } from "./newest.js";
-import { formulas, slide } from "./slide.js";
+import { bodiesOf, formulas, slide } from "./slide.js";
 import { createSpot } from "./spot.js";
 
 /** @typedef {import("../page.js").View} View */
@@ -87,6 +87,8 @@ export function open({ root, session, state, about, changed, play, poll }) {
   let slideShown = "";
   /** @type {ReturnType<typeof formulas>} */
   let shownNow = [];
+  /** @type {ReturnType<typeof bodiesOf>} */
+  let bodies = [];
 
   const stopAt = (/** @type {import("../../model/lecture/stops.js").Stop} */ { step, part }) =>
     session.goTo(step, part);
@@ -107,7 +109,7 @@ export function open({ root, session, state, about, changed, play, poll }) {
     here() {
       const { place, overlay, derivation } = state();
       const { scene, title } = about();
-      return { place: { ...place, scene }, overlay, title, chapters: derivation?.chapters ?? [] };
+      return { place: { ...place, scene }, overlay, title, bodies, chapters: derivation?.chapters ?? [] };
     },
     wish(wish) {
       if (wish.kind === "go") go(wish.by);
@@ -175,6 +177,7 @@ export function open({ root, session, state, about, changed, play, poll }) {
       if (slideShown && next !== slideShown) flights.look(lines.slice(0, (line?.index ?? 0) + 2).flatMap(seenOf));
       slideShown = next;
       shownNow = formulas(view, asking.veiled());
+      bodies = bodiesOf(view);
       return slide(view, { go, present, leave, spot: pointOut, spotted: spot.on, touch, asking });
     },
     /** Called when anything has changed. */

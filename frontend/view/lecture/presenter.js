@@ -6,6 +6,7 @@ import { displayed, prose } from "../formula.js";
 import { appearance, brand, language, lettersOf } from "../header.js";
 import { icon } from "../icons.js";
 import { inLanguage } from "../../model/catalog.js";
+import { numberingBy } from "../../model/lecture/numbering.js";
 import { noteOf } from "../../model/lecture/notes.js";
 import { isConcluded, onwards, partsOf, within } from "../../model/lecture/stops.js";
 import { clockText, elapsed } from "../../model/lecture/timer.js";
@@ -53,16 +54,17 @@ function desk(here, view) {
   const index = indexOf(lines, place.step);
   const { part } = within(lines, place, 0);
   const next = onwards(lines, { step: lines[index].step.id, part }, 1, place.pace);
+  const numbering = numberingBy(here.bodies);
   const last = next.step === lines[index].step.id && next.part === part;
   return html`
     <section class="now" aria-labelledby="now">
       <h2 id="now">${t("presenter.now")} <span class="count">${index + 1} / ${lines.length}</span>
         ${here.overlay === "black" ? html`<strong>${t("presenter.black")}</strong>` : nothing}</h2>
-      ${sheet(lines[index], part)}
+      ${sheet(lines[index], part, numbering)}
     </section>
     <section class="next" aria-labelledby="next">
       <h2 id="next">${t("presenter.next")}</h2>
-      ${last ? html`<p class="notice">${t("presenter.end")}</p>` : sheet(lines[indexOf(lines, next.step)], next.part)}
+      ${last ? html`<p class="notice">${t("presenter.end")}</p>` : sheet(lines[indexOf(lines, next.step)], next.part, numbering)}
     </section>
     <section class="notes" aria-labelledby="notes">
       <h2 id="notes">${t("presenter.notes")}</h2>
@@ -81,15 +83,20 @@ function desk(here, view) {
     </footer>`;
 }
 
-/** A step as far as it is shown, in the order of the slide: its substeps, and below them its result. @param {import("../../model/reveal.js").Line} line @param {number} part */
-function sheet({ step, number }, part) {
+/**
+ * A step as far as it is shown, in the order of the slide: its substeps, and below them its result.
+ * @param {import("../../model/reveal.js").Line} line @param {number} part @param {import("../../model/lecture/numbering.js").Numbering} numbering
+ */
+function sheet({ step, number }, part, { short, within: numbersIn }) {
   const parts = partsOf(step).slice(0, part);
-  const formula = (/** @type {Step} */ one) =>
-    one.marked || one.latex ? displayed(one.marked || one.latex, false, one) : nothing;
+  const written = (/** @type {Step} */ one) => one.marked || one.latex;
+  const formula = (/** @type {Step} */ one) => (written(one) ? displayed(short(written(one)), false, one) : nothing);
+  const numbers = numbersIn([step, ...parts.map(({ step: one }) => one)].map(written));
   const words = (/** @type {Step} */ { text }) => (text ? html`<p class="prose">${prose(text)}</p>` : nothing);
   return html`
     <div class="sheet" tabindex="0" role="region" aria-label=${number}>
       <h3 class="title"><span class="number">${number}</span><span>${prose(step.title)}</span></h3>
+      ${numbers.length ? html`<p class="numbers">${numbers.map((one) => html`<span class="numbered"><b>${one.number}</b> ${one.name}</span> `)}</p>` : nothing}
       ${words(step)}
       ${parts.map(({ step: one }) => html`${one.title ? html`<h4>${prose(one.title)}</h4>` : nothing}${words(one)}${formula(one)}`)}
       ${isConcluded(step, part) ? formula(step) : nothing}

@@ -9,7 +9,7 @@ import { question } from "./asking.js";
 import { called } from "../../model/catalog.js";
 import { isUnderWay } from "../../model/derivations.js";
 import { indexOf } from "../../model/reveal.js";
-import { numberingOf } from "../../model/lecture/numbering.js";
+import { numberedIn, numberingBy } from "../../model/lecture/numbering.js";
 import { premisesOf } from "../../model/lecture/premises.js";
 import { isConcluded, partsOf, within } from "../../model/lecture/stops.js";
 
@@ -62,11 +62,14 @@ function sheet(line, view, { asking }) {
     <div class="reason">${view.why?.panel(step)}</div>`;
 }
 
-/** How bodies are called in formulas; a proof has none. @param {Pick<Shown, "state" | "t">} view */
-function numberingIn({ state, t }) {
+/** The bodies that are called by numbers; a proof has none. @param {Pick<Shown, "state" | "t">} view */
+export function bodiesOf({ state, t }) {
   const { scene } = /** @type {{scene?: import("../../model/types.js").Scene | null}} */ (state);
-  return numberingOf(scene, (body) => called(scene?.labels, body, state.place.lang, t));
+  return numberedIn(scene, (body) => called(scene?.labels, body, state.place.lang, t));
 }
+
+/** How bodies are called in formulas. @param {Pick<Shown, "state" | "t">} view */
+const numberingIn = (view) => numberingBy(bodiesOf(view));
 
 /** Which body each number in a slide's formulas stands for. @param {import("../../model/reveal.js").Line} line @param {Shown} view */
 function numbers(line, view) {
