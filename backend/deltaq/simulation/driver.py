@@ -115,9 +115,7 @@ def _trajectory(
     step: float | None,
     guide_jump: GuideJump | None,
 ) -> Trajectory:
-    best = max(attempts, key=_merit)
-    if problem.is_constrained and not min(len(run.times) for run in best.runs):
-        raise unmet(problem)
+    best = _best(problem, attempts)
     found, n = best.estimate, problem.degrees
     is_reached = None if tolerance is None or found is None else found.worst <= tolerance and best.is_complete
     transitions = _transitions(best)
@@ -149,6 +147,14 @@ def _trajectory(
         transitions,
         tuple(Stretch(each.start, each.problem) for each in best.chosen.meshes),
     )
+
+
+def _best(problem: Problem, attempts: list[Attempt]) -> Attempt:
+    """The attempt to answer with. Raises SceneError where constraints cannot be kept even at the start."""
+    best = max(attempts, key=_merit)
+    if problem.is_constrained and not min(len(run.times) for run in best.runs):
+        raise unmet(problem)
+    return best
 
 
 def _transitions(best: Attempt) -> tuple[Transition, ...]:
