@@ -1895,6 +1895,12 @@ export interface components {
             /** @description where the answer has times */
             taken?: components["schemas"]["Measured"] | null;
             /**
+             * Minimal
+             * @description these coordinates, if they are not the scene's own
+             * @default []
+             */
+            minimal: string[];
+            /**
              * Apart
              * @description how far the twins were apart at first
              */
@@ -5480,9 +5486,10 @@ export interface components {
         NoFlipMap: {
             /**
              * Missing
-             * @constant
+             * @description `constraints`: it would begin at angles that are not the scene's own
+             * @enum {string}
              */
-            missing: "angles";
+            missing: "angles" | "constraints";
         };
         /**
          * Numeric
@@ -5760,6 +5767,12 @@ export interface components {
             charts: components["schemas"]["Chart"][];
             /** @description where the answer has times */
             taken?: components["schemas"]["Measured"] | null;
+            /**
+             * Minimal
+             * @description these coordinates, if they are not the scene's own
+             * @default []
+             */
+            minimal: string[];
             /**
              * Plane
              * @description the expression that is zero there
@@ -7783,6 +7796,12 @@ export interface components {
             /** @description where the answer has times */
             taken?: components["schemas"]["Measured"] | null;
             /**
+             * Minimal
+             * @description these coordinates, if they are not the scene's own
+             * @default []
+             */
+            minimal: string[];
+            /**
              * Eigenvalues
              * @description [Re λ, Im λ] in 1/s
              */
@@ -7803,12 +7822,6 @@ export interface components {
              * @description how much the linearization changes along the motion
              */
             varies: number;
-            /**
-             * Minimal
-             * @description with constraints, the coordinates in which it is linearized
-             * @default []
-             */
-            minimal: string[];
             /** Methods */
             methods: components["schemas"]["FailingStep"][];
             /**
@@ -7870,6 +7883,12 @@ export interface components {
             charts: components["schemas"]["Chart"][];
             /** @description where the answer has times */
             taken?: components["schemas"]["Measured"] | null;
+            /**
+             * Minimal
+             * @description these coordinates, if they are not the scene's own
+             * @default []
+             */
+            minimal: string[];
             x: components["schemas"]["MapSide"];
             y: components["schemas"]["MapSide"];
             /**
@@ -8985,6 +9004,12 @@ export interface components {
             charts: components["schemas"]["Chart"][];
             /** @description where the answer has times */
             taken?: components["schemas"]["Measured"] | null;
+            /**
+             * Minimal
+             * @description these coordinates, if they are not the scene's own
+             * @default []
+             */
+            minimal: string[];
             /**
              * Distribution
              * @enum {string}

@@ -163,7 +163,7 @@ REFUSED = [
     pytest.param({"horizontal": "x", "vertical": "x"}, "basins-same-axes", "/vertical", id="one axis twice"),
     pytest.param({"x_from": 1.0, "x_to": 1.0}, "basins-no-side", "/x_to", id="no side"),
     pytest.param({"x_from": math.inf}, "request-not-finite", "/x_from", id="not finite"),
-    pytest.param({"scene": "cartesian-pendulum"}, "lab-constraints", "/scene", id="constraints"),
+    pytest.param({"scene": "cartesian-pendulum"}, "lab-starts-with-constraints", "/scene", id="constraints"),
     pytest.param({"scene": "stick-slip"}, "lab-jumps", "/scene", id="dry friction"),
 ]
 

@@ -378,7 +378,10 @@ REFUSED = [
         id="all leave",
     ),
     pytest.param(
-        {"scene": "cartesian-pendulum", "sweep": swept("l", 1, 2)}, "lab-constraints", "/scene", id="constraints"
+        {"scene": "cartesian-pendulum", "sweep": swept("l", 1, 2)},
+        "lab-starts-with-constraints",
+        "/scene",
+        id="constraints",
     ),
 ]
 

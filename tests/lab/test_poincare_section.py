@@ -151,7 +151,7 @@ REFUSED = [
     pytest.param(
         {"scene": OSCILLATORS, "energy": -1.0, "count": 3}, "section-energy-unreachable", "/energy", id="too little"
     ),
-    pytest.param({"scene": "cartesian-pendulum"}, "lab-constraints", "/scene", id="constraints"),
+    pytest.param({"scene": "four-bar"}, "lab-constraints", "/scene", id="constraints"),
     pytest.param({"scene": OSCILLATORS, "count": 40, "t_end": 500.0}, "section-too-large", "/count", id="too long"),
     pytest.param({"scene": OSCILLATORS, "count": 30, "crossings": 200}, "section-too-large", "/count", id="too many"),
 ]

@@ -307,7 +307,7 @@ REFUSED = [
     pytest.param({"uncertain": "parameters", "tolerance": 0.8}, "uncertainty-sign", "/tolerance", id="all of them"),
     pytest.param({"uncertain": "rates"}, "request-not-one-of", "/uncertain", id="no such choice"),
     pytest.param({"scene": EMPTY, "uncertain": "parameters"}, "uncertainty-nothing", "/uncertain", id="no parameters"),
-    pytest.param({"scene": "cartesian-pendulum"}, "lab-constraints", "/scene", id="constraints"),
+    pytest.param({"scene": "four-bar"}, "lab-constraints", "/scene", id="constraints"),
     pytest.param({"scene": "bouncing-ball"}, "lab-jumps", "/scene", id="impacts"),
     pytest.param({"scene": "stick-slip"}, "lab-jumps", "/scene", id="dry friction"),
 ]

@@ -41,6 +41,12 @@ class ExperimentAnswer(Answer):
     taken: Measured | None = Field(None, description="where the answer has times")
 
 
+class FreeAnswer(ExperimentAnswer):
+    """What was found in coordinates that keep constraints by themselves, where the scene has some."""
+
+    minimal: tuple[str, ...] = Field((), description="these coordinates, if they are not the scene's own")
+
+
 class ExperimentRequest(SceneWithInitialValues):
     """The scene to experiment on, with its changes and values."""
 

@@ -78,7 +78,8 @@ def free_subject_of(request: ExperimentRequest, samples: int = 501) -> Subject:
     """
     subject = subject_of(request, samples)
     if subject.problem.is_constrained:
-        raise RequestError(Mistake("lab-constraints", "/scene", parameters={"count": len(subject.scene.constraints)}))
+        count = {"count": len(subject.scene.constraints)}
+        raise RequestError(Mistake("lab-starts-with-constraints", "/scene", parameters=count))
     return subject
 
 

@@ -9,7 +9,7 @@ from pydantic import Field
 
 from ...vocabulary import Status
 from ..base import Answer, Pair, examples
-from ..experiment import SHORTEST, ExperimentAnswer, ExperimentRequest
+from ..experiment import SHORTEST, ExperimentAnswer, ExperimentRequest, FreeAnswer
 
 
 class ChaosVerdict(StrEnum):
@@ -118,10 +118,12 @@ class FlipMap(Answer):
 class NoFlipMap(Answer):
     """Why there is no map."""
 
-    missing: Literal["angles"]
+    missing: Literal["angles", "constraints"] = Field(
+        description="`constraints`: it would begin at angles that are not the scene's own"
+    )
 
 
-class ChaosAnswer(ExperimentAnswer):
+class ChaosAnswer(FreeAnswer):
     """How fast motions part, whether that is chaos, and how long each tolerance predicts."""
 
     apart: float = Field(description="how far the twins were apart at first")

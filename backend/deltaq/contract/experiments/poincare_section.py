@@ -9,7 +9,7 @@ from pydantic_core import PydanticCustomError
 
 from ...vocabulary import Status
 from ..base import Answer, examples
-from ..experiment import SHORTEST, ExperimentAnswer, ExperimentRequest
+from ..experiment import SHORTEST, ExperimentAnswer, ExperimentRequest, FreeAnswer
 from ..figure import Begin
 
 LONGEST = 10_000.0  # seconds of one motion
@@ -34,7 +34,7 @@ class Orbit(Answer):
     error: tuple[float, ...] = Field(description="of each point: absolute below 1, relative above")
 
 
-class PoincareSectionAnswer(ExperimentAnswer):
+class PoincareSectionAnswer(FreeAnswer):
     """Orbits by their points in the plane, with what is known of their accuracy."""
 
     plane: str = Field(description="the expression that is zero there", examples=["phi1"])

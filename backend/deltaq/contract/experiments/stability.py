@@ -8,7 +8,7 @@ from pydantic import Field
 
 from ...vocabulary import Status
 from ..base import Answer, Pair, examples
-from ..experiment import ExperimentAnswer, ExperimentRequest, MethodIds
+from ..experiment import ExperimentAnswer, ExperimentRequest, FreeAnswer, MethodIds
 
 Place = Literal["state", "rest"]
 Basis = Literal["linearization", "flow"]
@@ -46,14 +46,13 @@ class StiffRun(Answer):
     error: float | None
 
 
-class StabilityAnswer(ExperimentAnswer):
+class StabilityAnswer(FreeAnswer):
     """The scene's eigenvalues, the step at which each method fails, and what a stiffness costs."""
 
     eigenvalues: tuple[Pair, ...] = Field(description="[Re λ, Im λ] in 1/s")
     at: Place = Field(description="where the scene was to be linearized")
     rest: bool = Field(description="whether it rests there")
     varies: float = Field(description="how much the linearization changes along the motion")
-    minimal: tuple[str, ...] = Field((), description="with constraints, the coordinates in which it is linearized")
     methods: tuple[FailingStep, ...]
     stiffness: str = Field(description="the parameter of the series; empty where there is none")
     series: tuple[StiffRun, ...]

@@ -7,7 +7,7 @@ from typing import ClassVar
 from pydantic import ConfigDict, Field, ValidationInfo, field_validator
 
 from ..base import Answer, Name, Request, examples, outside
-from ..experiment import ExperimentAnswer, ExperimentRequest
+from ..experiment import ExperimentAnswer, ExperimentRequest, FreeAnswer
 
 LARGEST = 1e9  # value of a parameter
 
@@ -45,7 +45,7 @@ class MapSide(Answer):
     values: tuple[float, ...]
 
 
-class StabilityMapAnswer(ExperimentAnswer):
+class StabilityMapAnswer(FreeAnswer):
     """The largest Floquet multiplier at each point of a plane."""
 
     x: MapSide

@@ -10,7 +10,7 @@ from pydantic_core import PydanticCustomError
 from ...vocabulary import Status
 from ..base import Answer, examples
 from ..ensemble import Quantity
-from ..experiment import SHORTEST, ExperimentAnswer, ExperimentRequest
+from ..experiment import SHORTEST, ExperimentAnswer, ExperimentRequest, FreeAnswer
 from ..figure import Numbers
 
 LONGEST = 1000.0  # seconds of one motion
@@ -51,7 +51,7 @@ class UncertainCoordinate(Answer):
     budget: dict[str, float] = Field(description="parts of the linear variance at the end of its reach, by quantity")
 
 
-class UncertaintyAnswer(ExperimentAnswer):
+class UncertaintyAnswer(FreeAnswer):
     """Spread of a cloud of runs against linear propagation, by coordinate."""
 
     distribution: Distribution

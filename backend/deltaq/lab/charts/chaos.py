@@ -6,7 +6,7 @@ import math
 from typing import Any
 
 from .chart import PALETTE, Chart, Result, Trace, axis, chart
-from .words import Say, called
+from .words import Say, called, in_minimal
 
 SCALE = [[0.0, "#fde725"], [0.35, "#35b779"], [0.7, "#31688e"], [1.0, "#440154"]]
 
@@ -35,7 +35,7 @@ def _twins(result: Result, say: Say) -> Chart:
         ends = [result["apart"], result["apart"] * math.exp(rate * until)]
         traces.append(_line([0.0, until], ends, 1, "e<sup>λt</sup>") | {"line": {"color": PALETTE[1], "dash": "dash"}})
     axes = {"xaxis": axis(say("labs.axis.t")), "yaxis": axis(say("labs.chaos.distance-axis"), log=True)}
-    caption = say("labs.chaos.twins-caption", apart=result["apart"])
+    caption = in_minimal(say("labs.chaos.twins-caption", apart=result["apart"]), result, say)
     return chart("chaos-twins", say("labs.chaos.twins"), caption, traces, **axes)
 
 

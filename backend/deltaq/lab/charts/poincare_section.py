@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from typing import Any
 
 from .chart import INK, PALETTE, Chart, Result, Trace, axis, chart
-from .words import Say, called
+from .words import Say, called, in_minimal
 
 MOST_SHOWN = 12_000  # points that a picture has room for; of more, every second, third … of each orbit
 SIZE, OWN_SIZE, PALE = 3.0, 5.0, 0.35
@@ -20,7 +20,7 @@ def charts(result: Result, say: Say) -> list[Chart]:
 
 def _section(result: Result, say: Say) -> Chart:
     axes = {"xaxis": axis(_axis_title(result, "horizontal")), "yaxis": axis(_axis_title(result, "vertical"))}
-    caption = " ".join(filter(None, _told(result, say)))
+    caption = in_minimal(" ".join(filter(None, _told(result, say))), result, say)
     return chart("poincare-section", say("labs.poincare-section.section"), caption, _traces(result, say), **axes)
 
 

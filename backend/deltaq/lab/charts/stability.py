@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from typing import Any
 
 from .chart import Chart, Result, Trace, axis, chart, crosses, curve, grouped, name_of
-from .words import Say, called
+from .words import Say, called, in_minimal
 
 
 def charts(result: Result, say: Say) -> list[Chart]:
@@ -21,9 +21,7 @@ def _regions(result: Result, say: Say) -> Chart:
     traces = [trace for row in result["methods"] for trace in _region(row, say)]
     traces.append(_eigenvalues(result, say))
     caption = say("labs.stability.caption", count=len(result["eigenvalues"]))
-    if result.get("minimal"):
-        names = ", ".join(called(result, name) for name in result["minimal"])
-        caption = f"{caption} {say('labs.stability.minimal', names=names)}"
+    caption = in_minimal(caption, result, say)
     return chart("stability-regions", say("labs.stability.title"), caption, traces, xaxis=x_axis, yaxis=y_axis)
 
 

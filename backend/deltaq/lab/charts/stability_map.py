@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 
 from .chart import Chart, Result, axis, chart
-from .words import Say, called
+from .words import Say, called, in_minimal
 
 SCALE = [[0.0, "#f4f1de"], [1e-6, "#fde0c5"], [0.25, "#f2a25c"], [0.6, "#c8452f"], [1.0, "#5a0f24"]]
 LARGEST = 1.0  # decades of |μ| that the colours tell apart
@@ -29,6 +29,7 @@ def charts(result: Result, say: Say) -> list[Chart]:
     }
     count, percent = f"{len(x['values'])} × {len(y['values'])}", f"{100 * result['stable']:.0f}"
     caption = say("labs.stability-map.caption", count=count, seconds=result["time"], percent=percent)
+    caption = in_minimal(caption, result, say)
     axes = {"xaxis": axis(across), "yaxis": axis(up)}
     return [chart("stability-map", say("labs.stability-map.title"), caption, [heat], **axes)]
 

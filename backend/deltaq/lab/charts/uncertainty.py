@@ -7,7 +7,7 @@ from collections.abc import Iterable, Iterator, Mapping
 from typing import Any
 
 from .chart import INK, PALETTE, Chart, Result, Trace, axis, chart
-from .words import Say, called
+from .words import Say, called, in_minimal
 
 KEY = "labs.uncertainty"
 MOST_BANDS = 4  # coordinates whose quantiles are drawn
@@ -29,7 +29,10 @@ def _spreads(result: Result, say: Say) -> Chart:
     traces = [trace for number in range(len(result["coordinates"])) for trace in _spread(result, number, say)]
     decades = _decades(y for trace in traces for y in trace["y"])
     y_axis = axis(say(f"{KEY}.deviation-axis"), log=True, dtick=max(1, round(decades / MOST_TICKS)))
-    axes, caption = {"xaxis": axis(say("labs.axis.t")), "yaxis": y_axis}, " ".join(_told(result, say))
+    axes, caption = (
+        {"xaxis": axis(say("labs.axis.t")), "yaxis": y_axis},
+        in_minimal(" ".join(_told(result, say)), result, say),
+    )
     return chart("uncertainty-spread", say(f"{KEY}.spread"), caption, traces, **axes)
 
 

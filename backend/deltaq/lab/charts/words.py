@@ -32,6 +32,14 @@ def called(result: Mapping[str, Any], names: str) -> Any:
     return known.get(names, names) if len(several) == 1 else ", ".join(str(known.get(name, name)) for name in several)
 
 
+def in_minimal(caption: str, result: Mapping[str, Any], say: Say) -> str:
+    """A caption, and in which coordinates all of it was made where those are not the scene's own."""
+    if not result.get("minimal"):
+        return caption
+    names = ", ".join(str(called(result, name)) for name in result["minimal"])
+    return f"{caption} {say('labs.minimal', names=names)}"
+
+
 def spoken(value: object, language: str) -> object:
     """Numbers with three digits, powers of ten as they are printed; a word by its language; others as they are."""
     if value is None:

@@ -20,8 +20,8 @@ from ..divergence import Followed, followed, rhythm_of, solved, twins
 from ..experiment import Experiment
 from ..flips import Plane
 from ..lyapunov import CONFIDENCE, Exponent, Judgement, exponent_of, is_enough, judge
+from ..minimal_subject import FreeSubject, minimal_subject_of
 from ..report import Document, Report, rounded, significant
-from ..subject import Subject, free_subject_of
 
 SAMPLES = 801
 APART = 1e-8  # of the twins, if nobody says
@@ -34,9 +34,10 @@ FIRST, LAST = 2, 39  # reports that the exponent is done at
 
 def run(request: ChaosRequest) -> Iterator[Report]:
     """Twins, exponent and horizon, then the map where it is wanted."""
-    subject, apart = free_subject_of(request, SAMPLES), request.apart or APART
+    found, apart = minimal_subject_of(request, SAMPLES), request.apart or APART
+    subject = found.subject
     problem, total = subject.problem, 40 + 10 * request.map
-    result = subject.described | {"apart": apart, "twins": _twins(problem, apart)}
+    result = found.described | {"apart": apart, "twins": _twins(problem, apart)}
     yield Report(1, total, result)
     for part, done in _measured(problem):
         result = result | {"exponent": part}
@@ -44,7 +45,7 @@ def run(request: ChaosRequest) -> Iterator[Report]:
     result = result | {"horizon": horizon(problem)}
     yield Report(40, total, result)
     if request.map:
-        for part in _map(subject, request.count):
+        for part in _map(found, request.count):
             result = result | {"map": part}
             yield Report(total, total, result)
 
@@ -115,8 +116,12 @@ def _differences(first: Floats, second: Floats) -> Floats:
     return np.asarray(np.abs(first - second).max(axis=1))
 
 
-def _map(subject: Subject, count: int) -> Iterator[Document]:
-    """Turning over, from rest at the values of the first two angles."""
+def _map(found: FreeSubject, count: int) -> Iterator[Document]:
+    """Turning over, from rest at the values of the first two angles, which are to be the scene's own."""
+    subject = found.subject
+    if found.minimal is not None:
+        yield {"missing": "constraints"}
+        return
     problem = replace(subject.problem, t_end=min(MAP_SPAN, subject.problem.t_end))
     angles = [place for place, is_angle in enumerate(problem.angular) if is_angle]
     if len(angles) < 2:

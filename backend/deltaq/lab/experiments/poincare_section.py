@@ -20,11 +20,12 @@ from ...simulation.rounding import rounded as rounded_to
 from ...simulation.section import path_of
 from ..charts.poincare_section import charts
 from ..experiment import Experiment
+from ..minimal_subject import FreeSubject, minimal_subject_of
 from ..orbits import LOST, MEETS, TOGETHER, Orbit, followed, steps_of
 from ..plane import Section, observables_of, section_of
 from ..report import Document, Report, rounded, significant
 from ..starts import Grid, Starts
-from ..subject import Subject, bounded, free_subject_of
+from ..subject import bounded
 
 TOTAL = 1000
 MOST_STEPS = 20_000  # of one orbit: one that comes close to a pole would keep all others waiting
@@ -37,7 +38,7 @@ class _Asked:
     """What is measured: the section, the starts with the scene's own first, where it belongs to them."""
 
     request: PoincareSectionRequest
-    subject: Subject
+    free: FreeSubject
     section: Section
     grid: Starts
     states: Floats
@@ -48,8 +49,8 @@ class _Asked:
 
 def run(request: PoincareSectionRequest) -> Iterator[Report]:
     """Orbits as they come, some dozens side by side; then what is known of them."""
-    subject, cancelled = free_subject_of(request), np.zeros(1, dtype=np.int64)
-    asked, orbits = _asked(request, subject, cancelled), list[Orbit]()
+    free, cancelled = minimal_subject_of(request), np.zeros(1, dtype=np.int64)
+    asked, orbits = _asked(request, free, cancelled), list[Orbit]()
     steps = steps_of(asked.section.problem, is_driven=asked.section.is_driven)
     yield Report(0, TOTAL, _told(asked, []))
     for first in range(0, len(asked.states), TOGETHER):
@@ -62,7 +63,8 @@ def run(request: PoincareSectionRequest) -> Iterator[Report]:
     yield Report(TOTAL, TOTAL, _told(asked, orbits))
 
 
-def _asked(request: PoincareSectionRequest, subject: Subject, cancelled: np.ndarray) -> _Asked:
+def _asked(request: PoincareSectionRequest, free: FreeSubject, cancelled: np.ndarray) -> _Asked:
+    subject = free.subject
     observables, problem = observables_of(request, subject), bounded(subject, MOST_STEPS)
     path = path_of(problem, steps_of(problem, is_driven=False), LONGEST_PATH, cancelled)
     section = section_of(request, problem, observables, path)
@@ -80,14 +82,14 @@ def _asked(request: PoincareSectionRequest, subject: Subject, cancelled: np.ndar
     scale = float((np.abs(values[:, 1:-1]) * np.abs(path[:, :-1])).sum(axis=1).max()) + float(
         np.abs(values[:, -1]).max()
     )
-    return _Asked(request, subject, section, starts, states, has_own, energy, scale)
+    return _Asked(request, free, section, starts, states, has_own, energy, scale)
 
 
 def _require_points(asked: _Asked, orbits: Sequence[Orbit]) -> None:
     """Raises RequestError where no orbit crosses the plane, or all stay in it."""
     if all(orbit.status != "ok" and not len(orbit.rows) for orbit in orbits):
         raise RequestError(Mistake("no-motion"))
-    told: dict[str, str | float] = {"plane": asked.section.plane.text[:80], "t_end": asked.subject.problem.t_end}
+    told: dict[str, str | float] = {"plane": asked.section.plane.text[:80], "t_end": asked.request.t_end}
     if all(orbit.reach <= MEETS * asked.scale for orbit in orbits):
         raise RequestError(Mistake("section-plane-contains", "/plane", parameters=told))
     start = asked.section.at(np.column_stack([asked.states[:1], np.zeros(1)]))[0, :2]
@@ -108,7 +110,7 @@ def _told(asked: _Asked, orbits: Sequence[Orbit]) -> Document:
     errors = [orbit.errors[skip : orbit.horizon(extent)] for orbit in orbits]
     verdicts = [orbit.is_chaotic(extent) for orbit in orbits[int(asked.has_own) :]]
     clear = [one for one in verdicts if one is not None]
-    return asked.subject.described | {
+    return asked.free.described | {
         "plane": section.plane.text,
         "direction": section.direction,
         "horizontal": section.axes[0].text,
@@ -134,16 +136,14 @@ def _kept(energy: float | None, found: Floats) -> float | None:
 
 
 def _orbit(asked: _Asked, orbit: Orbit, extent: float, *, own: bool) -> Document:
-    n, skip = asked.section.problem.degrees, asked.request.skip
+    skip = asked.request.skip
     known = orbit.horizon(extent)
     count = len(orbit.rows) if asked.request.beyond else known
     rows, seen, errors = orbit.rows[skip:count], orbit.seen[skip:count], orbit.errors[skip:count]
     is_lost = known < len(orbit.rows)
     shown = rounded_to(seen[:, :2], np.minimum(errors, 1e-3))
-    names = [coordinate.name for coordinate in asked.subject.scene.free]
-    starts = zip(names, orbit.start[:n].tolist(), orbit.start[n:].tolist(), strict=True)
     return {
-        "initial": {name: {"value": value, "rate": rate} for name, value, rate in starts},
+        "initial": asked.free.begin(orbit.start),
         "own": own,
         "status": "horizon_reached" if is_lost and orbit.status == "ok" else orbit.status,
         "chaotic": orbit.is_chaotic(extent),

@@ -53,8 +53,7 @@ def run(request: StabilityRequest) -> Iterator[Report]:
     total = len(methods) + (len(FACTORS) * len(STIFFENED) if stiffness else 0)
     head = _spectrum(neighbours.eigenvalues) | {"at": request.at, "rest": is_rest}
     head |= {"varies": significant(neighbours.varies, 2), "taken": measured(1)}
-    head |= {"minimal": list(found.coordinates)}
-    result = subject.described | head | {"methods": [], "stiffness": stiffness, "series": []}
+    result = found.described | head | {"methods": [], "stiffness": stiffness, "series": []}
     for done, method in enumerate(methods, 1):
         result = appended(result, "methods", _row(neighbours, method))
         yield Report(done, total, result)

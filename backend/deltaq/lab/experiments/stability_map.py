@@ -19,17 +19,19 @@ from ...language.tree import Name, walk
 from ...mechanics.requests import inside
 from ..charts.stability_map import charts
 from ..experiment import Experiment
+from ..minimal_subject import minimal_subject_of
 from ..monodromy import Axis, Plane, StabilityMap
 from ..period import clocks, period
 from ..report import Document, Report, measured, rounded, significant
-from ..subject import Subject, free_subject_of, parameter_of
+from ..subject import Subject, parameter_of
 
 COARSEST = 8
 
 
 def run(request: StabilityMapRequest) -> Iterator[Report]:
     """The map, rough at first."""
-    subject, first, second = free_subject_of(request), _axis(request.x), _axis(request.y)
+    free, first, second = minimal_subject_of(request), _axis(request.x), _axis(request.y)
+    subject = free.subject
     if first.parameter == second.parameter:
         told = {"name": first.parameter}
         raise RequestError(Mistake("request-same-parameter", "/y/parameter", parameters=told))
@@ -40,7 +42,7 @@ def run(request: StabilityMapRequest) -> Iterator[Report]:
     total = sum((1.0 / stride) ** 2 for stride in strides)
     for index, found in enumerate(plane.refined(coarsest=COARSEST)):
         done = sum((1.0 / stride) ** 2 for stride in strides[: index + 1])
-        result = subject.described | _told(found) | {"time": significant(perf_counter() - start)}
+        result = free.described | _told(found) | {"time": significant(perf_counter() - start)}
         result |= {"taken": circumstances}
         yield Report(round(1000 * done / total), 1000, result)
 

@@ -36,9 +36,10 @@ from ..cloud import (
     usable,
 )
 from ..experiment import Experiment
+from ..minimal_subject import minimal_subject_of
 from ..propagation import Propagation, propagated
 from ..report import Document, Report, rounded, significant
-from ..subject import Subject, bounded, free_subject_of
+from ..subject import Subject, bounded
 
 SAMPLES = 201
 TOGETHER = 64  # runs, at least, between two reports
@@ -77,7 +78,8 @@ class _Asked:
 
 def run(request: UncertaintyRequest) -> Iterator[Report]:
     """The linear propagation, then the cloud as it grows."""
-    subject = free_subject_of(request, SAMPLES)
+    free = minimal_subject_of(request, SAMPLES)
+    subject = free.subject
     problem = bounded(subject, MOST_STEPS)
     names = _names(subject)
     sizes = _sizes(request, problem, names)
@@ -90,7 +92,7 @@ def run(request: UncertaintyRequest) -> Iterator[Report]:
     )
     tolerance = float(np.clip(FINE * asked.sigmas[asked.sigmas > 0.0].min(), FINEST, USUAL))
     for cloud in flown(problem, deviations, tolerance, max(TOGETHER, -(-request.runs // REPORTS))):
-        yield Report(len(cloud.values), request.runs, _told(asked, cloud))
+        yield Report(len(cloud.values), request.runs, _told(asked, cloud) | {"minimal": list(free.coordinates)})
 
 
 def _names(subject: Subject) -> tuple[str, ...]:
