@@ -10,6 +10,7 @@ import pytest
 from scipy.integrate import solve_ivp
 
 from deltaq.errors import RequestError
+from deltaq.lab.charts.chaos import charts
 from deltaq.lab.library import get_experiment
 
 
@@ -88,6 +89,10 @@ def test_a_pendulum_by_a_rod_is_as_regular_and_as_uncertain_as_by_its_angle() ->
     chaos = last_of("chaos", scene="cartesian-pendulum", t_end=5.0, map=True)
     assert (chaos["minimal"], chaos["exponent"]["verdict"]) == (["phi"], "regular")
     assert chaos["map"] == {"missing": "constraints"}
+    drawn = charts(chaos, lambda key, **_: key)
+    assert [chart["id"] for chart in drawn] == ["chaos-twins", "chaos-exponent", "chaos-horizon"][: len(drawn)]
+    assert "labs.minimal" in drawn[0]["caption"]
+    assert "labs.chaos.no-map" in drawn[1]["caption"]
     spread = last_of("uncertainty", scene="cartesian-pendulum", t_end=2.0, runs=30, uncertain="values", tolerance=1e-3)
     assert (spread["minimal"], spread["tolerances"]) == (["phi"], {"initial.phi.value": 1e-3})
 

@@ -50,6 +50,8 @@ def _exponent(result: Result, say: Say) -> Chart:
     caption = " ".join(filter(None, (_verdict(told, say), _measure(told, say), _second(told, say))))
     if "horizon" in result and not _can_be_drawn(result, "horizon"):
         caption += " " + say("labs.chaos.no-horizon")
+    if result.get("map", {}).get("missing") == "constraints":
+        caption += " " + say("labs.chaos.no-map")
     return chart("chaos-exponent", say("labs.chaos.exponent"), caption, traces, showlegend=False, **axes)
 
 
