@@ -126,7 +126,16 @@ export const marginsOf = (em) => ({ l: 2.9 * em, r: 0.65 * em, t: 1.5 * em, b: 1
  */
 export function layoutOf(rows, end, palette, lang, height, em, from = 0) {
   const font = { family: "system-ui, sans-serif", size: 0.7 * em, color: palette.muted };
-  const line = { gridcolor: palette.grid, zeroline: false, ticks: "", fixedrange: true, exponentformat: "power" };
+  const line = {
+    gridcolor: palette.grid,
+    zeroline: false,
+    ticks: "",
+    fixedrange: true,
+    exponentformat: "power",
+    // There is room for all of them: to look whether they fit takes a third of a drawing.
+    tickangle: 0,
+    ticklabeloverflow: "allow",
+  };
   const axes = domainsOf(rows.length, height, em).map((domain, r) => [
     r === 0 ? "yaxis" : `yaxis${r + 1}`,
     {

@@ -32,22 +32,24 @@ export function createVisits(past, now, { embedded = false } = {}) {
   /** @type {Place | null} */
   let at = null;
   let last = { kind: "", time: -Infinity };
+  let written = "";
   const number = () => Number(past.state?.visit ?? 0);
 
   return {
     /** Writes a place down. @param {Place} place @param {string} address */
     keep(place, address) {
       const kind = at ? kindOf(at, place) : "";
+      if (at && !kind && address === written) return;
       const time = now();
       const follows = kind === last.kind && time - last.time < PORTION;
       if (kind && !follows && !embedded) past.pushState({ visit: number() + 1 }, "", address);
       else past.replaceState({ visit: number() }, "", address);
-      at = place;
+      [at, written] = [place, address];
       if (kind) last = { kind, time };
     },
     /** The place of an entry that has been gone back to, or forward; the next change is a new one. @param {Place} place */
     returned(place) {
-      at = place;
+      [at, written] = [place, ""];
       last = { kind: "", time: -Infinity };
     },
     /** Takes back what was done last on this page; never leaves it. */

@@ -17,3 +17,9 @@ export function whenIdle(task, timeout) {
   if (window.requestIdleCallback) window.requestIdleCallback(task, { timeout });
   else setTimeout(task, 30);
 }
+
+/** When the next frame has been drawn: a long task does not hold it up. A page that is not seen has none. @param {() => void} task */
+export function afterFrame(task) {
+  if (document.hidden) setTimeout(task);
+  else requestAnimationFrame(() => setTimeout(task));
+}

@@ -6,7 +6,7 @@ import { readLook, spanOf } from "../model/look.js";
 import { domainsOf, isShown, layoutOf, marksOf, marginsOf, scalesOf, timeScale, tracesOf } from "../model/plots.js";
 import { trustedUntil } from "../model/trajectory.js";
 import { script } from "./bring.js";
-import { whenIdle } from "./frames.js";
+import { afterFrame, whenIdle } from "./frames.js";
 import { createMoment } from "./moment.js";
 import { coloursOf, paletteOf } from "./palette.js";
 import { typeset } from "./typesetting.js";
@@ -18,7 +18,7 @@ import { typeset } from "./typesetting.js";
 
 /** Named in the import map, so that its address carries the version of the libraries. */
 const SOURCE = import.meta.resolve("plotly");
-/** Milliseconds between two redraws while a slider moves. */
+/** Milliseconds between two redraws while a slider moves; a slow processor keeps as long for all else as one took. */
 const PAUSE = 100;
 /** Milliseconds after which a plot has waited long enough for an idle moment. */
 const PATIENCE = 500;
@@ -46,12 +46,10 @@ function createCurves(root, came) {
     return new Promise((/** @type {(come: boolean) => void} */ resolve) => setTimeout(resolve, 0, true));
   }, came);
 
-  /** @param {import("../model/curves.js").Row[]} rows @param {number} em */
-  function label(rows, em) {
+  /** Nothing is measured here, for the page has just been changed. @param {import("../model/curves.js").Row[]} rows @param {number} em @param {number} height */
+  function label(rows, em, height) {
     const { t, b } = marginsOf(em);
-    const tops = domainsOf(rows.length, root.clientHeight, em).map(
-      ([, top]) => (1 - top) * (root.clientHeight - t - b),
-    );
+    const tops = domainsOf(rows.length, height, em).map(([, top]) => (1 - top) * (height - t - b));
     rows.forEach((row, r) => {
       const [line, said] = [names.children[r], saidOf(row)];
       if (!(line instanceof HTMLElement && line.dataset.said === said)) {
@@ -80,16 +78,16 @@ function createCurves(root, came) {
       );
       const frame = { width: root.clientWidth, height: root.clientHeight, em, duration: to, from };
       const layout = {
-        ...layoutOf(rows, to, palette, lang, root.clientHeight, em, from),
+        ...layoutOf(rows, to, palette, lang, frame.height, em, from),
         width: frame.width,
         height: frame.height,
         shapes: marksOf(trajectory, rows, palette),
       };
       const traces = tracesOf(rows, trajectory, palette, frame);
       await globalThis.Plotly.react(canvas, traces, layout, { staticPlot: true, displayModeBar: false });
-      label(rows, em);
+      label(rows, em, frame.height);
       canvas.querySelectorAll(".scatterlayer .trace").forEach((curve, i) => mark(curve, traces[i]?.className ?? ""));
-      const scale = timeScale(root.clientWidth, to, em, from);
+      const scale = timeScale(frame.width, to, em, from);
       const end = Math.max(from, trustedUntil(trajectory));
       beyond.style.insetInlineStart = `${scale.pixel(end)}px`;
       beyond.hidden = end >= to * 0.999;
@@ -107,6 +105,8 @@ export function createPlots(root, { seek, changed }) {
   let shown = null;
   let visible = false;
   let due = 0;
+  /** When the curves may be drawn anew. */
+  let free = 0;
   /** @type {Drawn | null} */
   let drawn = null;
   /** @type {() => void} */
@@ -124,14 +124,21 @@ export function createPlots(root, { seek, changed }) {
     if (!shown || !visible || root.clientWidth === 0) return;
     owed = !(await curves.library.want());
     if (owed || !shown) return;
+    const began = performance.now();
     drawn = await curves.draw(shown);
+    free = began + Math.max(PAUSE, 2 * (performance.now() - began));
     moment.fit(drawn.scale);
     root.classList.add("ready");
     told();
   }
 
+  /** The first curves wait until all else is there, others only for the drawing of their motion. */
   function schedule() {
-    if (!due) due = window.setTimeout(() => whenIdle(() => void redraw(), PATIENCE), PAUSE);
+    if (due) return;
+    const [wait, pause] = drawn
+      ? [afterFrame, free - performance.now()]
+      : [(/** @type {() => void} */ task) => whenIdle(task, PATIENCE), PAUSE];
+    due = window.setTimeout(() => wait(() => void redraw()), Math.max(0, pause));
   }
 
   new ResizeObserver(schedule).observe(root);

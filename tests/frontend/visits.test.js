@@ -38,6 +38,19 @@ function visited(changes, page) {
   return { past, visits, keep, returned };
 }
 
+test("what stands in the address already is not written again, unless the page has been somewhere else", () => {
+  const { past, keep, returned } = visited([[2000, { step: "b" }]]);
+  const written = /** @type {string[]} */ ([]);
+  past.replaceState = (/** @type {any} */ _state, /** @type {any} */ _, /** @type {any} */ address) => void written.push(address);
+  keep(20, {});
+  keep(2000, {});
+  assert.equal(written.length, 0);
+  past.back();
+  returned();
+  keep(20, {});
+  assert.deepEqual(written, [FIRST]);
+});
+
 const FIRST = "?scene=swing&step=a";
 for (const [name, changes, entries] of /** @type {[string, [number, any][], string[]][]} */ ([
   ["each step is an entry", [[2000, { step: "b" }], [2000, { step: "c" }]], [FIRST, "?scene=swing&step=b", "?scene=swing&step=c"]],
