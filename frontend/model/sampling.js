@@ -11,7 +11,7 @@ import { leastRange, usual } from "./trajectory.js";
 /** @typedef {import("./types.js").Trajectory} Trajectory */
 /** @typedef {import("./types.js").Sent<"/simulations">} Request */
 /** @typedef {Pick<Request, "t_end" | "step"> & {samples: number}} Asked  of a request, what is looked at here */
-/** @typedef {{values: readonly number[], rates?: readonly number[], low: number, high: number, range: number}} Quantity  shown from low to high, to a scale on which `range` fills the plot */
+/** @typedef {{values: readonly number[], rates?: readonly number[], doubt: (i: number) => number, low: number, high: number, range: number}} Quantity  shown from low to high, to a scale on which `range` fills the plot; doubt: by how much the sample of a number may be off beside its neighbours */
 
 /** The server sends 20001 samples at most; this is one more than a prime number. */
 const MOST = 19998;
@@ -61,14 +61,25 @@ const SOME = 500;
 const STILL = 1e-6;
 const SMALLEST = 1e-9;
 
-/** A quantity as it is shown. @param {readonly number[]} values @param {readonly number[]} [rates] @returns {Quantity} */
-function quantity(values, rates) {
+/** An answer is rounded to this part of its error at most: half of the last of eight bits. */
+const ROUNDING = 2 ** -8;
+/** Roundings that may come together in what is predicted from neighbours, and its own. */
+const TOGETHER = 3;
+
+const exactly = () => 0;
+
+/** By how much rounding may put a sample off beside its neighbours. @param {readonly (number | null)[] | null} [errors] */
+const roundingBy = (errors) => (errors ? (/** @type {number} */ i) => TOGETHER * ROUNDING * (errors[i] ?? 0) : exactly);
+
+/** A quantity as it is shown. @param {readonly number[]} values @param {Quantity["doubt"]} doubt @param {readonly number[]} [rates] @returns {Quantity} */
+function quantity(values, doubt, rates) {
   const stride = Math.ceil(values.length / SOME);
   const few = values.filter((_, i) => i % stride === 0 || i === values.length - 1);
   const [low, high] = usual(few.sort((a, b) => a - b));
   return {
     values,
     rates,
+    doubt,
     low,
     high,
     range: Math.max(high - low, STILL * Math.max(Math.abs(low), Math.abs(high)), SMALLEST),
@@ -86,20 +97,31 @@ function together(quantities, least = 0) {
 
 /** All that is drawn as a curve. @param {Trajectory} trajectory @returns {Quantity[]} */
 function quantitiesOf(trajectory) {
-  const { coordinates, rates, positions, energy } = trajectory;
+  const { coordinates, rates, positions, energy, error } = trajectory;
   const least = leastRange(trajectory);
+  const rounding = roundingBy(error?.estimate);
   return [
-    ...Object.entries(coordinates).flatMap(([name, values]) => together([quantity(values, rates[name])], least)),
-    ...Object.values(rates).flatMap((values) => together([quantity(values)], least)),
+    ...Object.entries(coordinates).flatMap(([name, values]) =>
+      together([quantity(values, rounding, rates[name])], least),
+    ),
+    ...Object.values(rates).flatMap((values) => together([quantity(values, rounding)], least)),
     ...together(
       Object.values(positions ?? {})
         .flatMap(componentsOf)
-        .map((values) => quantity(values)),
+        .map((values) => quantity(values, rounding)),
     ),
-    ...Object.values(trajectory.multipliers ?? {}).map((values) => quantity(values)),
-    ...Object.values(trajectory.friction ?? {}).map(({ force }) => quantity(force)),
-    ...(energy ? together([energy.kinetic, energy.potential, energy.balance].map((values) => quantity(values))) : []),
+    ...Object.entries(trajectory.multipliers ?? {}).map(([name, values]) =>
+      quantity(values, roundingBy(error?.multipliers?.[name])),
+    ),
+    ...Object.values(trajectory.friction ?? {}).map(({ force }) => quantity(force, exactly)),
+    ...(energy ? energiesOf(energy) : []),
   ];
+}
+
+/** What the balance departs from its start is error, also in its parts. @param {import("./types.js").Energy} energy */
+function energiesOf({ kinetic, potential, balance }) {
+  const drift = TOGETHER * largest(balance.map((value) => Math.abs(value - balance[0])));
+  return together([kinetic, potential, balance].map((values) => quantity(values, () => drift)));
 }
 
 /** Numbers of samples that are kept when every other is left out; those at jumps, whose times stand twice, are. @param {readonly number[]} times */
@@ -125,16 +147,15 @@ function missing(times) {
   const left = times.map((_, i) => i).filter((i) => i < last && !here.has(i));
   const spans = left.map((i) => spanAt(few, times[i]));
   const blends = left.map((i) => blendAt(few, times[i]));
-  return ({ values, rates, low, high, range }) => {
+  return ({ values, rates, doubt, low, high, range }) => {
     const [some, slopes] = [kept.map((i) => values[i]), rates && kept.map((i) => rates[i])];
     const drawn = (/** @type {number} */ n) => (slopes ? hermiteAt(some, slopes, spans[n]) : scalarAt(some, blends[n]));
     const shown = (/** @type {number} */ value) => value > low - range && value < high + range;
-    return left.map((i, n) => (shown(values[i]) ? Math.abs(drawn(n) - values[i]) / range : 0));
+    const off = (/** @type {number} */ i, /** @type {number} */ n) =>
+      Math.max(0, Math.abs(drawn(n) - values[i]) - doubt(i));
+    return left.map((i, n) => (shown(values[i]) ? off(i, n) / range : 0));
   };
 }
-
-/** An answer has three digits more than its error, so that this part of the error may be rounding. */
-const ROUNDING = 1e-3;
 
 /**
  * By how much rates miss the way that coordinates go, as parts of their range: what swings between two samples is seen
@@ -144,11 +165,13 @@ const ROUNDING = 1e-3;
 function astray({ t, coordinates, rates, error }) {
   return Object.entries(coordinates).flatMap(([name, q]) => {
     const v = rates[name];
-    const { range } = quantity(v);
+    const { range } = quantity(v, exactly);
     return t.slice(2).map((end, i) => {
       const [h, k] = [t[i + 1] - t[i], end - t[i + 1]];
       if (!(h > 0) || Math.abs(h - k) > 1e-6 * h) return 0;
-      const rounding = ROUNDING * ((error?.estimate?.[i] ?? 0) + (error?.estimate?.[i + 2] ?? 0));
+      // Of both values, and twice h times that of the rates.
+      const [first, last] = [error?.estimate?.[i] ?? 0, error?.estimate?.[i + 2] ?? 0];
+      const rounding = ROUNDING * (first + last + 2 * h * Math.max(first, last));
       return (
         Math.max(0, Math.abs(q[i + 2] - q[i] - (h / 3) * (v[i] + 4 * v[i + 1] + v[i + 2])) - rounding) / (2 * h * range)
       );
@@ -172,7 +195,7 @@ const largest = (values) => values.reduce((most, value) => Math.max(most, value)
 /** The part of the time in which an arrow is not where its samples are. @param {Trajectory} trajectory @param {(quantity: Quantity) => number[]} missed */
 function turning({ loads }, missed) {
   const parts = Object.values(loads ?? {})
-    .flatMap((vectors) => together(componentsOf(vectors).map((values) => quantity(values))))
+    .flatMap((vectors) => together(componentsOf(vectors).map((values) => quantity(values, exactly))))
     .map((one) => {
       const off = missed(one);
       return off.filter((part) => part > MISSED).length / Math.max(1, off.length);

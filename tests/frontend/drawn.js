@@ -12,6 +12,7 @@ import { placed } from "../../frontend/model/drawing/placing.js";
 import { stageOf } from "../../frontend/model/drawing/stage.js";
 import { portraitsOf } from "../../frontend/model/figure/phase.js";
 import { picturesOf } from "../../frontend/model/history.js";
+import { unpacked } from "../../frontend/model/columns.js";
 import { rowsOf } from "../../frontend/model/curves.js";
 import { layoutOf, scalesOf, tracesOf } from "../../frontend/model/plots.js";
 import { requestOf } from "../../frontend/model/request.js";
@@ -35,10 +36,10 @@ const lines = createInterface({ input: process.stdin })[Symbol.asyncIterator]();
 const read = async () => JSON.parse((await lines.next()).value ?? "null");
 const tell = (/** @type {object} */ said) => process.stdout.write(`${JSON.stringify(said)}\n`);
 
-/** @param {object} request */
+/** In planes, whose bits are as few as on the page. @param {object} request */
 async function simulate(request) {
-  tell({ ask: request });
-  return read();
+  tell({ ask: { ...request, columns: "planes" } });
+  return unpacked(await read());
 }
 
 /** How far a point is from a chord. */

@@ -98,6 +98,17 @@ test("an answer is judged by what it has: noise of a constant, and its rounding,
   assert.equal(judged(still, { t_end: END, samples: 252 }, 1).again, null);
 });
 
+for (const error of [1e-4, 8e-8, 1e-11]) {
+  test(`a uniform rotation is asked for once, whatever its error of ${error} lets be rounded`, () => {
+    const unit = 2 ** (Math.ceil(Math.log2(error)) - 8), t = Array.from({ length: 252 }, (_, i) => (END * i) / 251);
+    const rounded = (/** @type {number[]} */ values) => values.map((value) => Math.round(value / unit) * unit);
+    const energy = { kinetic: t.map((_, i) => 1.125 + 1e-5 * error * (i % 3)), potential: t.map(() => 0), balance: t.map((_, i) => 1.125 + 1e-5 * error * (i % 3)), works: false };
+    const turns = { ...trajectory, t, coordinates: { phi: rounded(t.map((s) => 1.5 * s)) }, rates: { phi: rounded(t.map((_, i) => 1.5 + ((i * 0.6180339887) % 1 - 0.5) * unit)) }, positions: {}, loads: {}, energy, error: { estimate: t.map(() => error) } };
+    const found = judged(/** @type {any} */ (turns), { t_end: END, samples: 252 }, 1);
+    assert.deepEqual([found.trajectory.coarse, found.again], [false, null]);
+  });
+}
+
 test("a motion that ended at once is asked for more finely", () => {
   const short = { ...trajectory, status: "event", t: [0, 0.04, 0.05], coordinates: { x: [0, 1, 2] }, rates: { x: [0, 0, 0] }, positions: {}, loads: {}, energy: undefined };
   assert.ok((judged(short, { t_end: END, samples: 252 }, 1).again?.samples ?? 0) > 1000);
