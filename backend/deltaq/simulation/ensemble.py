@@ -27,7 +27,7 @@ from .problem import Floats, Problem
 from .refinement import BySeries
 from .rounding import short
 from .run import Steps
-from .series.engine import LANES, jet_of_model
+from .series.engine import jet_of_model, lanes_of_host
 
 BLOCK = 64  # motions between which it is looked for others that may go on
 ROUNDS = 3  # of a smaller local tolerance for those that missed theirs
@@ -149,7 +149,7 @@ def in_lanes(
     They go side by side in lanes, blocks of them in as many threads as there are processors.
     """
     problem, count, recurrences = ensemble.problem, len(ensemble), ensemble.problem.model.recurrences
-    jet = jet_of_model(problem.model, is_long=True, lanes=LANES)
+    jet = jet_of_model(problem.model, is_long=True, lanes=lanes_of_host())
     states = np.hstack([ensemble.states, np.zeros((count, jet.shape.width - 2 * problem.degrees))])
     constants = np.ascontiguousarray(recurrences.constants(ensemble.parameters.T).T).reshape(count, -1)
     if steps.is_nudged:
