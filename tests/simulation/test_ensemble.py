@@ -137,6 +137,9 @@ KNOWN = "initial.x.value, initial.x.rate, " + ", ".join(f"parameters.{name}" for
 REFUSED = [
     pytest.param({"vary": {}}, "request-too-few", "/vary", id="nothing varies"),
     pytest.param({"vary": {X: [1.0, "a"]}}, "request-not-number", f"/vary/{X}/1", id="no number"),
+    pytest.param(
+        {"vary": {X: {"from": -1.7e308, "to": 1.0, "count": 3}}}, "request-too-small", f"/vary/{X}/from", id="far"
+    ),
     pytest.param({"vary": {X: {"from": 1.0, "to": 2.0}}}, "missing-field", f"/vary/{X}/count", id="how many"),
     pytest.param({"vary": {"parameters.q": [1.0]}}, "ensemble-quantity", "/vary/parameters.q", id="unknown"),
     pytest.param({"vary": {X: [1.0]}, "t_end": 0.0}, "request-outside", "/t_end", id="no time"),

@@ -15,6 +15,7 @@ from .simulation import LARGEST_SPAN, USUAL_TOLERANCE, Column, Written
 MOST_RUNS = 100_000
 MOST_SECONDS = 500_000.0  # of all motions together
 MOST_NUMBERS = 20_000_000  # runs × samples
+LARGEST = 1e300  # of what values are made of: differences and sums of such numbers are numbers
 
 
 class Evenly(Request):
@@ -22,8 +23,8 @@ class Evenly(Request):
 
     model_config = ConfigDict(serialize_by_alias=True)
 
-    begin: float = Field(alias="from", description="the first", examples=[0.5])
-    to: float = Field(description="the last", examples=[1.5])
+    begin: float = Field(alias="from", ge=-LARGEST, le=LARGEST, description="the first", examples=[0.5])
+    to: float = Field(ge=-LARGEST, le=LARGEST, description="the last", examples=[1.5])
     count: int = Field(ge=1, le=MOST_RUNS, description="how many", examples=[11])
 
 
