@@ -136,12 +136,13 @@ export function layoutOf(rows, end, palette, lang, height, em, from = 0) {
     tickangle: 0,
     ticklabeloverflow: "allow",
   };
+  const { t, b } = marginsOf(em);
   const axes = domainsOf(rows.length, height, em).map((domain, r) => [
     r === 0 ? "yaxis" : `yaxis${r + 1}`,
     {
       ...line,
       domain,
-      nticks: 4,
+      nticks: ticksIn((domain[1] - domain[0]) * (height - t - b), em),
       zeroline: true,
       zerolinecolor: palette.grid,
       zerolinewidth: 1.5,
@@ -161,6 +162,14 @@ export function layoutOf(rows, end, palette, lang, height, em, from = 0) {
     separators: lang === "de" ? ",." : ".,",
   };
 }
+
+/** Most ticks of an axis so many pixels long: their numbers stand one above the other. @param {number} length @param {number} em */
+const ticksIn = (length, em) => Math.max(MOST_TICKS[0], Math.min(MOST_TICKS[1], Math.floor(length / (TICK * em))));
+
+/** Fewer would say nothing, more would be a crowd. */
+const MOST_TICKS = [2, 4];
+/** What the number of a tick takes, in the page's type size. */
+const TICK = 0.9;
 
 /** Marks of more events than these would be a grey ground. */
 const MOST_MARKS = 80;

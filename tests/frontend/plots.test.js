@@ -27,6 +27,12 @@ test("reactions have a row above the energies, written as what they hold or as m
   assert.deepEqual(rows(undefined), [["", [...multiplier, false], [...held, false]]]);
 });
 
+for (const [height, ticks] of [[700, 4], [300, 4], [240, 3], [130, 2], [20, 2]])
+  test(`in plots of ${height} pixels an axis has ${ticks} ticks at most`, () => {
+    const layout = /** @type {any} */ (layoutOf(rowsOf(scene, trajectory), 4, palette, "en", height, 16));
+    assert.equal(layout.yaxis.nticks, ticks);
+  });
+
 for (const [works, name] of /** @type {[boolean, string][]} */ ([[true, "E + V − ∫P dt"], [false, "E + V"]]))
   test(`the balance of energies is ${name} where ${works ? "something" : "nothing"} else works`, () => {
     const energy = { kinetic: trajectory.t, potential: trajectory.t, balance: trajectory.t, works };
