@@ -100,7 +100,7 @@ const LAB = [
   ...LABS.flatMap((lab) => [`labs.experiments.${lab}.title`, `labs.experiments.${lab}.summary`]),
   ...KNOWN.options("chaos").flatMap(({ kind, label, choices = [] }) => [label, ...choices.filter((one) => typeof one === "string").map((one) => `${label}-${one}`), ...(["parameter", "text"].includes(kind) ? [`${label}-usual`] : [])]).map((key) => `labs.${key}`),
 ];
-const CHARTS = ["axis", "hover", "status", ...LABS].map((part) => `labs.${part}.`).concat("ladder.", "labs.without-result");
+const CHARTS = ["axis", "hover", "status", ...LABS].map((part) => `labs.${part}.`).concat("ladder.", "labs.without-result", "labs.minimal");
 
 /** What sharing asks for by form of file, by why there is none, and by what a frame shows. */
 const SHARE = [
