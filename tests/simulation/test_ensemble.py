@@ -132,13 +132,40 @@ def test_statistics_of_a_cloud() -> None:
     assert again["mean"] == found["mean"]
 
 
-X = "initial.x.value"
+X, L = "initial.x.value", "parameters.l"
 KNOWN = "initial.x.value, initial.x.rate, " + ", ".join(f"parameters.{name}" for name in ("m", "k", "c", "F0", "omega"))
 REFUSED = [
     pytest.param({"vary": {}}, "request-too-few", "/vary", id="nothing varies"),
     pytest.param({"vary": {X: [1.0, "a"]}}, "request-not-number", f"/vary/{X}/1", id="no number"),
     pytest.param(
         {"vary": {X: {"from": -1.7e308, "to": 1.0, "count": 3}}}, "request-too-small", f"/vary/{X}/from", id="far"
+    ),
+    pytest.param(
+        {"vary": {X: {"normal": [0.0, -1.0], "count": 3}}}, "request-too-small", f"/vary/{X}/normal/1", id="σ"
+    ),
+    pytest.param(
+        {"vary": {X: {"normal": [1e308, 1.0], "count": 3}}}, "request-too-large", f"/vary/{X}/normal/0", id="μ"
+    ),
+    pytest.param(
+        {"scene": "pendulum", "vary": {L: [1.0, -1.0]}}, "not-positive", f"/vary/{L}/1", id="a length below zero"
+    ),
+    pytest.param(
+        {"scene": "pendulum", "vary": {L: {"from": 0.0, "to": 1.0, "count": 3}}},
+        "not-positive",
+        f"/vary/{L}/from",
+        id="from zero",
+    ),
+    pytest.param(
+        {"scene": "pendulum", "vary": {L: {"from": 1.0, "to": -1.0, "count": 3}}},
+        "not-positive",
+        f"/vary/{L}/to",
+        id="to less",
+    ),
+    pytest.param(
+        {"scene": "pendulum", "vary": {L: {"normal": [1.0, 1.0], "count": 100}}},
+        "not-positive",
+        f"/vary/{L}/normal",
+        id="drawn below zero",
     ),
     pytest.param({"vary": {X: {"from": 1.0, "to": 2.0}}}, "missing-field", f"/vary/{X}/count", id="how many"),
     pytest.param({"vary": {"parameters.q": [1.0]}}, "ensemble-quantity", "/vary/parameters.q", id="unknown"),

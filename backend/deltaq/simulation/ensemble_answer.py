@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 from time import perf_counter
 
 import numpy as np
 
-from ..contract.ensemble import Drawn, EnsembleRequest, Evenly, Variation
+from ..contract.ensemble import LARGEST, Drawn, EnsembleRequest, Evenly, Variation
 from ..contract.reading import read
 from ..errors import Problem as Mistake
 from ..errors import RequestError, escaped
@@ -58,7 +58,12 @@ def varied_of(asked: EnsembleRequest, scene: Scene) -> Varied:
             for n in unknown
         ]
         raise RequestError(*missing)
-    columns = _combined([_values(one, i) for i, one in enumerate(asked.vary.values())], asked.combine)
+    mistakes = [mistake for name, one in asked.vary.items() for mistake in _drawing_mistakes(name, one)]
+    if mistakes:
+        raise RequestError(*mistakes)
+    own = [_values(one, i) for i, one in enumerate(asked.vary.values())]
+    _require_positive(asked, scene, own)
+    columns = _combined(own, asked.combine)
     count = len(columns[0])
     table = np.repeat(np.array([*problem.values, *problem.rates, *problem.parameters])[None, :], count, axis=0)
     for name, column in zip(asked.vary, columns, strict=True):
@@ -84,8 +89,40 @@ def _values(variation: Variation, number: int) -> Floats:
         return np.linspace(variation.begin, variation.to, variation.count)
     if isinstance(variation, Drawn):
         mean, deviation = variation.normal
-        return np.random.default_rng([variation.seed, number]).normal(mean, abs(deviation), variation.count)
+        return np.random.default_rng([variation.seed, number]).normal(mean, deviation, variation.count)
     return np.array(variation, dtype=np.float64)
+
+
+def _drawing_mistakes(name: str, variation: Variation) -> Iterator[Mistake]:
+    """What is wrong with mean and standard deviation of values that are drawn."""
+    least = (-LARGEST, 0.0)
+    for i, value in enumerate(variation.normal if isinstance(variation, Drawn) else ()):
+        pointer = f"/vary/{escaped(name)}/normal/{i}"
+        if value < least[i]:
+            yield Mistake("request-too-small", pointer, parameters={"ge": least[i]})
+        elif value > LARGEST:
+            yield Mistake("request-too-large", pointer, parameters={"le": LARGEST})
+
+
+def _require_positive(asked: EnsembleRequest, scene: Scene, columns: list[Floats]) -> None:
+    """Raises RequestError for the first value of each parameter that is not positive, where the scene says it is."""
+    positive = {f"parameters.{one.name}": one.name for one in scene.parameters if one.positive}
+    mistakes = []
+    for (name, variation), values in zip(asked.vary.items(), columns, strict=True):
+        below = np.flatnonzero(values <= 0.0)
+        if name in positive and below.size:
+            told: dict[str, str | float] = {"name": positive[name], "value": float(values[below[0]])}
+            pointer = f"/vary/{escaped(name)}/{_place_of(variation, int(below[0]))}"
+            mistakes.append(Mistake("not-positive", pointer, parameters=told))
+    if mistakes:
+        raise RequestError(*mistakes)
+
+
+def _place_of(variation: Variation, index: int) -> str:
+    """Where in a variation its value of a number comes from."""
+    if isinstance(variation, Evenly):
+        return "from" if variation.begin <= variation.to or index == 0 else "to"
+    return "normal" if isinstance(variation, Drawn) else str(index)
 
 
 def _combined(columns: list[Floats], how: str) -> list[Floats]:
