@@ -162,6 +162,7 @@ REFUSED = [
     pytest.param({"horizontal": "z"}, "ensemble-quantity", "/horizontal", id="no such coordinate"),
     pytest.param({"horizontal": "x", "vertical": "x"}, "basins-same-axes", "/vertical", id="one axis twice"),
     pytest.param({"x_from": 1.0, "x_to": 1.0}, "basins-no-side", "/x_to", id="no side"),
+    pytest.param({"y_to": 1e308}, "request-outside", "/y_to", id="as far as numbers go"),
     pytest.param({"x_from": math.inf}, "request-not-finite", "/x_from", id="not finite"),
     pytest.param({"scene": "cartesian-pendulum"}, "lab-starts-with-constraints", "/scene", id="constraints"),
     pytest.param({"scene": "stick-slip"}, "lab-jumps", "/scene", id="dry friction"),

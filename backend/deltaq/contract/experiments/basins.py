@@ -15,6 +15,7 @@ LONGEST = 1000.0  # seconds of one motion
 MOST_SECONDS = 250_000.0  # of all motions together
 SCALES = 7  # distances at which neighbours of a start are looked at
 
+LARGEST = 1e9  # where a map may begin or end
 Quantity = Annotated[str, Field(max_length=80)]
 
 
@@ -80,11 +81,13 @@ class BasinsRequest(ExperimentRequest):
     vertical: Quantity = Field("", description="another one; empty: the next coordinate, or the rate of the only one")
     x_from: float | None = Field(
         None,
+        ge=-LARGEST,
+        le=LARGEST,
         description="where the map begins; if empty, the least value of the scene's slider",
     )
-    x_to: float | None = Field(None, description="where it ends")
-    y_from: float | None = Field(None, description="the same, upwards")
-    y_to: float | None = Field(None, description="where it ends")
+    x_to: float | None = Field(None, ge=-LARGEST, le=LARGEST, description="where it ends")
+    y_from: float | None = Field(None, ge=-LARGEST, le=LARGEST, description="the same, upwards")
+    y_to: float | None = Field(None, ge=-LARGEST, le=LARGEST, description="where it ends")
     count: int = Field(48, ge=8, le=150, description="starts on a side of the grid")
     pairs: int = Field(
         150, ge=0, le=1500, description=f"starts whose neighbours at {SCALES} distances are looked at; 0: none"
