@@ -18,6 +18,7 @@ import httpx
 from tests.serving import served
 
 from deltaq.contract.document import EXAMPLE
+from deltaq.lab.library import experiment_ids
 from deltaq.mechanics.library import load_scene
 from deltaq.mechanics.writing import write_scene
 
@@ -30,17 +31,7 @@ MAGNITUDES = (5e-324, 2.3e-308, 1e-200, 1e-155, 1e-16, 1e16, 1e77, 1e153, 1e154,
 WHOLE = (0, -1, 2**31, 2**53 + 1, 2**63, 2**64, -(2**63) - 1, 10**300, 10**308, 10**309, 10**399)
 METHODS = ("auto", "rk4", "explicit-euler", "dop853", "radau-5", "stormer-verlet", "gauss-4", "newmark")
 FORMS = ("latex", "markdown", "python")
-EXPERIMENTS = (
-    "work-precision",
-    "convergence",
-    "energy-drift",
-    "stability",
-    "chaos",
-    "fidelity",
-    "stability-map",
-    "poincare-section",
-    "bifurcation",
-)
+EXPERIMENTS = experiment_ids()
 BUSY = {503, 504}
 QUICK = {"simulation_deadline": 2, "derivation_deadline": 2, "experiment_deadline": 2, "queue_patience": 60}
 
@@ -110,7 +101,7 @@ class Draw(random.Random):
     def request(self) -> Request:
         """One of all."""
         scene = self.choice((*SCENES, *CONSTRAINED))
-        kinds = (self.simulation, self.simulation, self.simulation, self.derivation, self.derivation, self.export)
+        kinds = (self.simulation, self.simulation, self.ensemble, self.derivation, self.derivation, self.export)
         return self.choice((*kinds, self.homework, self.variation, self.experiment, self.scene_or_expression))(scene)
 
     def simulation(self, scene: str) -> Request:
@@ -132,6 +123,26 @@ class Draw(random.Random):
         if self.random() < 0.2:
             given["samples"] = self.often(11)
         return given
+
+    def ensemble(self, scene: str) -> Request:
+        """Some initial values and parameters vary, in each of the ways in which that is asked for."""
+        document = write_scene(load_scene(scene))
+        quantities = [f"parameters.{one['name']}" for one in document["parameters"]]
+        quantities += [f"initial.{one['name']}.{part}" for one in document["coordinates"] for part in ("value", "rate")]
+        vary = {name: self.varied() for name in self.sample(quantities, self.choice((1, 1, 2)))}
+        own = {"vary": vary, "initial": self.initial(scene), "t_end": self.often(0.5), "samples": 5}
+        if self.random() < 0.5:
+            own["statistics"] = ["mean", "quantiles"]
+        return "/ensembles", self.changes(scene) | own
+
+    def varied(self) -> object:
+        """Values, an interval of them, or a distribution."""
+        kind = self.randrange(3)
+        if kind == 0:
+            return [self.often(0.5), self.number()]
+        if kind == 1:
+            return {"from": self.often(0.1), "to": self.number(), "count": 3}
+        return {"normal": [self.often(0.5), self.number()], "count": 3}
 
     def homework(self, scene: str) -> Request:
         asked = self.changes(scene)
@@ -167,8 +178,8 @@ class Draw(random.Random):
             "chaos": {"apart": self.often(1e-6)},
             "fidelity": {"tolerance": self.often(0.01)},
             "poincare-section": {"energy": self.number(), "count": 2} if self.random() < 0.5 else {"count": 2},
-            "basins": {"x_to": self.often(1.0), "count": 8, "pairs": 0},
-            "uncertainty": {"tolerance": self.often(0.01), "runs": 30},
+            "basins": {"x_from": -self.often(1.0), "x_to": self.often(1.0), "count": 8, "pairs": 0},
+            "uncertainty": {"tolerance": self.often(0.01), "runs": 30, "share": self.often(0.1)},
             "bifurcation": {
                 "sweep": {"parameter": "omega", "from": self.number(), "to": self.number(), "count": 8},
                 "crossings": 4,

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from time import perf_counter
 
 import numpy as np
@@ -11,7 +11,7 @@ import numpy as np
 from ..contract.ensemble import LARGEST, Drawn, EnsembleRequest, Evenly, Variation
 from ..contract.reading import read
 from ..errors import Problem as Mistake
-from ..errors import RequestError, escaped
+from ..errors import RequestError, SceneError, escaped
 from ..mechanics.requests import begun_scene, inside
 from ..mechanics.scene import Scene
 from .answer import Document
@@ -21,6 +21,7 @@ from .problem import Floats
 from .rounding import rounded, short
 from .service import problem_of, require_no_event
 
+SCALE = 2.0**-20  # of so large values the sum of all runs is a number, too
 LEVELS = (0.05, 0.25, 0.5, 0.75, 0.95)
 
 
@@ -70,7 +71,17 @@ def varied_of(asked: EnsembleRequest, scene: Scene) -> Varied:
         table[:, places[name]] = column
     split = 2 * problem.degrees
     ensemble = Ensemble(problem, np.ascontiguousarray(table[:, :split]), np.ascontiguousarray(table[:, split:]))
+    _require_beginnings(scene, ensemble)
     return Varied(ensemble, dict(zip(asked.vary, columns, strict=True)))
+
+
+def _require_beginnings(scene: Scene, ensemble: Ensemble) -> None:
+    """Raises RequestError for the first run that begins behind an event, or at contacts that say nothing of its way."""
+    for index in range(len(ensemble) if scene.events else 0):
+        try:
+            require_no_event(scene, ensemble.member(index))
+        except SceneError as error:
+            raise RequestError(*(replace(one, pointer="/vary") for one in error.problems)) from None
 
 
 def _places(scene: Scene) -> dict[str, int]:
@@ -163,11 +174,12 @@ def _statistics(asked: EnsembleRequest, names: list[str], found: EnsembleMotion)
     written, answer = WRITERS[asked.columns].write, Document()
     reached = int(np.isfinite(found.values).any(axis=(0, 2)).sum())
     values = found.values[:, :reached]
+    scale = SCALE if np.nanmax(np.abs(values), initial=0.0) > LARGEST else 1.0
     if "mean" in asked.statistics:
-        mean = np.nanmean(values, axis=0)
+        mean = np.nanmean(values * scale, axis=0) / scale
         answer["mean"] = {name: written(np.ascontiguousarray(mean[:, i])) for i, name in enumerate(names)}
     if "quantiles" in asked.statistics:
-        levels = np.nanquantile(values, LEVELS, axis=0)
+        levels = np.nanquantile(values * scale, LEVELS, axis=0) / scale
         columns = {name: [written(np.ascontiguousarray(row[:, i])) for row in levels] for i, name in enumerate(names)}
         answer["quantiles"] = {"levels": list(LEVELS), "values": columns}
     return answer
