@@ -57,6 +57,14 @@ CASES = [
         id="unused parameter",
     ),
     pytest.param(
+        {
+            "parameters": [{"name": "m", "unit": "kg"}, {"name": "l", "unit": "m"}, {"name": "k"}],
+            "drawing": {"elements": [{"kind": "bob", "at": "bob", "radius": "k"}]},
+        },
+        (),
+        id="a parameter of the drawing alone",
+    ),
+    pytest.param(
         {"coordinates": [{"name": "x", "unit": "furlong"}, {"name": "phi"}]},
         (Problem("unknown-unit", "/coordinates/0/unit", parameters={"unit": "furlong"}, severity="warning"),),
         id="unknown unit",

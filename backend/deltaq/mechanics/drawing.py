@@ -87,6 +87,12 @@ class Drawing:
             None if self._view_is_box() else Problem("invalid-view", "/view"),
         )
 
+    @property
+    def sizes(self) -> frozenset[str]:
+        """The names of parameters that sizes are given by."""
+        options = (option for element in self.elements for option in element.options)
+        return frozenset(value for key, value in options if key in SIZES and isinstance(value, str))
+
     def _view_is_box(self) -> bool:
         if self.view is None:
             return True

@@ -90,7 +90,7 @@ def _parts(place: str, part: object, dimension: Dimension | None) -> Iterator[Fi
 
 
 def _idle_parameters(scene: Scene, found: tuple[Field, ...]) -> Iterator[Problem]:
-    used = frozenset[str]().union(*(field.expression.names for field in found))
+    used = scene.drawing.sizes.union(*(field.expression.names for field in found))
     for index, parameter in enumerate(scene.parameters):
         if parameter.name not in used:
             parameters = {"name": parameter.name}

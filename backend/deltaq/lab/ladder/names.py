@@ -38,13 +38,13 @@ def tidied(scene: Scene, labels: Mapping[str, Translated]) -> Scene:
     coordinates = {each.name for each in scene.coordinates}
     named = {*scene.places, *(load.name for load in scene.loads), *(body.name for body in scene.bodies)}
     elements = tuple(_drawn(each, named) for each in scene.drawing.elements if _has_its_own(each, named, coordinates))
-    drawn = {value for element in elements for _, value in element.options}
-    used = drawn.union(*(field.expression.names for field in expressions(scene)))
+    drawing = replace(scene.drawing, elements=elements)
+    used = drawing.sizes.union(*(field.expression.names for field in expressions(scene)))
     return replace(
         scene,
         parameters=tuple(each for each in scene.parameters if each.name in used),
         labels={name: label for name, label in labels.items() if name in named},
-        drawing=replace(scene.drawing, elements=elements),
+        drawing=drawing,
     )
 
 
