@@ -87,8 +87,8 @@ class Deviation:
     """How far a rung is from the full model over time (`distance.py` has the norm).
 
     `errors` are in metres, one for each of `times`; `largest` is the largest of them and `relative` that as a part of
-    the extent of the full motion, None where that stands still. `floor` is what the integrations themselves may err by,
-    as a part of the same. `until` is how long both could be compared, in seconds.
+    the extent of the full motion, a thousand at most, None where that stands still. `floor` is what the integrations
+    themselves may err by, as a part of the same. `until` is how long both could be compared, in seconds.
     """
 
     times: tuple[float, ...]

@@ -32,6 +32,9 @@ PER_STEP = 2  # samples for each step of the full motion
 SHOWN = 400  # about so many of them are told
 STEP_LIMIT = 200_000  # of one run
 CERTAIN = 10.0  # times as large as the error of the integration: what it cannot explain
+# Of the extent: a rung that is so far away has nothing to do with the motion. How far it runs until its computation
+# ends says nothing of it, and depends on the units in which it is computed.
+LOST = 1000.0
 ROUGH = 1e-4  # of the size: an error of the integration that asks for the least tolerance
 USUAL = Accuracy(TOLERANCE, SAMPLES)
 MOST_CUTS = 8
@@ -183,7 +186,7 @@ def deviation(full: Yardstick, rung: RungRun, back: Back) -> Deviation | None:
         return None
     errors, largest = errors[:good], float(errors[:good].max())
     floor = full.uncertainty(max(full.floor, rung.floor_until(full.end)))
-    relative = largest / full.extent if full.extent > 0.0 else None
+    relative = min(largest / full.extent, LOST) if full.extent > 0.0 else None
     shown = slice(0, good, max(1, full.accuracy.samples // SHOWN))
     times, curve = full.times[shown].tolist(), errors[shown].tolist()
     return Deviation(tuple(times), tuple(curve), largest, relative, floor / full.size, float(full.times[good - 1]))
