@@ -61,7 +61,7 @@ EACH = pytest.mark.parametrize("kind", list(requests()), ids=lambda kind: kind._
 def beyond(side: str, bound: float, schema: dict[str, Any]) -> float:
     """The least number that is out of bounds, or one close to it."""
     step = SIDES[side][2]
-    return bound + step if schema["type"] == "integer" or not bound else bound * (1 + step * 1e-3)
+    return bound + step if schema["type"] == "integer" or not bound else bound + step * 1e-3 * abs(bound)
 
 
 def told(kind: type[Request], document: dict[str, Any]) -> tuple[Problem, Problem]:
