@@ -21,7 +21,7 @@ from deltaq.errors import RequestError
 from deltaq.homework.checking import check, compare
 from deltaq.homework.feedback import verdict_document
 from deltaq.homework.grading import Sheet, grade, plan_of, read_answers
-from deltaq.homework.ordering.blocks import Blocks, Road, blocks_of, shuffled
+from deltaq.homework.ordering.blocks import Blocks, OrderedSteps, blocks_of, shuffled
 from deltaq.homework.ordering.judge import Ordering
 from deltaq.homework.quantities import quantity_of
 from deltaq.homework.service import check_request, lines_request, reading_request, solution_request, tasks_request
@@ -315,9 +315,9 @@ def test_what_stands_right_by_chance_is_shuffled_again() -> None:
                 super().shuffle(x)
 
     steps = tuple(Step(name, "", ()) for name in "rvE")
-    road = Road(steps, {"r": frozenset(), "v": frozenset("r"), "E": frozenset("rv")})
+    ordered = OrderedSteps(steps, {"r": frozenset(), "v": frozenset("r"), "E": frozenset("rv")})
     source = Stacked(1)
-    found = shuffled(road, None, source)
+    found = shuffled(ordered, None, source)
     assert source.left < 0
     assert [block.step.id for block in found.shown] != ["r", "v", "E"]
     assert [next(block.step.id for block in found.shown if block.id == letter) for letter in found.model] == [

@@ -17,7 +17,7 @@ import tomllib
 from dataclasses import dataclass
 from pathlib import Path
 
-from tests.order import durations
+from tests import order
 
 from .faults import sample
 from .running import recorded, verdicts
@@ -43,6 +43,11 @@ class Part:
 
 
 def main() -> None:
+    asked = parser().parse_args()
+    tried(Part.named(asked.part), asked)
+
+
+def parser() -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser(prog="python -m tests.mutants", description=__doc__)
     parser.add_argument("part")
     parser.add_argument("--sample", type=int, default=0, help="so many mutants, drawn at random; 0: all")
@@ -53,22 +58,26 @@ def main() -> None:
     parser.add_argument(
         "--seconds", type=float, default=math.inf, help="of tests for each mutant, files that take longer left out"
     )
-    asked = parser.parse_args()
-    part = Part.named(asked.part)
+    return parser
+
+
+def tried(part: Part, asked: argparse.Namespace) -> None:
+    """Tries as many faults of a part as are asked for, and prints those that nobody noticed."""
     for name in HEAVY:
         importlib.import_module(name)  # once for all processes
     began = time.monotonic()
     chosen, there = sample([module for module in part.modules if asked.only in str(module)], asked.sample, asked.seed)
     mutants = {n: mutant for n, mutant in enumerate(chosen, 1) if not asked.numbers or n in asked.numbers}
-    took = durations()
+    measured = order.recorded()
+    took = measured.by_file(measured.long)
     tests = [file for file in part.tests if took.get(file, 0.0) <= asked.seconds]
     record = recorded(tests, part.modules, asked.processes, asked.seconds)
     killed = 0
-    for tried, (number, noticed) in enumerate(verdicts(mutants, record, part.modules, asked.processes), 1):
+    for number, (of, noticed) in enumerate(verdicts(mutants, record, part.modules, asked.processes), 1):
         killed += noticed
         if not noticed:
-            print(f"\r[{number}] {mutants[number]}".replace(f"{ROOT}/", ""), flush=True)
-        print(f"\r{killed} of {tried} noticed", end="", file=sys.stderr, flush=True)
+            print(f"\r[{of}] {mutants[of]}".replace(f"{ROOT}/", ""), flush=True)
+        print(f"\r{killed} of {number} noticed", end="", file=sys.stderr, flush=True)
     share, seconds = killed / max(1, len(mutants)), time.monotonic() - began
     print(f"\n{asked.part}: {killed} of {len(mutants)} noticed ({share:.0%}) of {there}; {seconds:.0f} s")
 

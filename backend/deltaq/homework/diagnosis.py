@@ -60,7 +60,7 @@ def _alike(own: Fingerprint | None, other: Fingerprint) -> bool:
 
 
 def _agrees(workbook: Workbook, task: Task, candidate: Candidate, given: Parts, slips: tuple[Slip, ...]) -> bool:
-    """Whether the road of a misconception goes through the terms in which the slips are."""
+    """Whether the way to the answer of a misconception leads through the terms in which the slips are."""
     if not slips:
         return True
     evident, traces = candidate.solution.evident, candidate.solution.traces
@@ -73,9 +73,9 @@ def _agrees(workbook: Workbook, task: Task, candidate: Candidate, given: Parts, 
     return all(_compared_alike(workbook, slip, given, candidate.parts) for slip in slips if slip.scale)
 
 
-def _compared_alike(workbook: Workbook, slip: Slip, given: Parts, road: Parts) -> bool:
+def _compared_alike(workbook: Workbook, slip: Slip, given: Parts, faulty: Parts) -> bool:
     """Whether the equation is as many times the misconception's as it is the right one, but for the slip."""
-    scales = (_scale(workbook.sampler.rows(given[slip.part]), workbook.sampler.rows(part)) for part in road)
+    scales = (_scale(workbook.sampler.rows(given[slip.part]), workbook.sampler.rows(part)) for part in faulty)
     return any(scale is not None and close(scale, slip.scale) for scale in scales)
 
 

@@ -86,16 +86,16 @@ def is_short(solution: Solution) -> bool:
 @cached_method
 def blocks_of(solution: Solution, goal: str, subject: str) -> Blocks:
     """The blocks that lead to L, or to the equation of a coordinate; five to eight of them belong."""
-    road = _chosen(_derived(solution), goal, subject)
+    ordered = _chosen(_derived(solution), goal, subject)
     source = random.Random(f"{solution.scene.id}/{goal}:{subject}/{solution.seed}")
-    return shuffled(road, _distractor(solution, road.steps, subject, source), source)
+    return shuffled(ordered, _distractor(solution, ordered.steps, subject, source), source)
 
 
 # --- which steps -----------------------------------------------------------------------------------------------------
 
 
 @dataclass(frozen=True)
-class Road:
+class OrderedSteps:
     """Steps in an order in which they can be read, and by its id all those among them that each rests on."""
 
     steps: tuple[Step, ...]
@@ -103,14 +103,14 @@ class Road:
 
 
 @cached_method
-def _derived(solution: Solution) -> Road:
+def _derived(solution: Solution) -> OrderedSteps:
     """All steps up to the equations of motion."""
     found = islice(chapters(solution.model), chapters_of_equations(USUAL))
     steps = tuple(one for chapter in found for step in chapter.steps for one in _inside_out(step))
     rests: dict[str, frozenset[str]] = {}
     for step in steps:
         rests[step.id] = frozenset(step.premises).union(*(rests[premise] for premise in step.premises))
-    return Road(steps, rests)
+    return OrderedSteps(steps, rests)
 
 
 def _inside_out(step: Step) -> Iterator[Step]:
@@ -119,16 +119,18 @@ def _inside_out(step: Step) -> Iterator[Step]:
     yield step
 
 
-def _chosen(road: Road, goal: str, subject: str) -> Road:
+def _chosen(ordered: OrderedSteps, goal: str, subject: str) -> OrderedSteps:
     """The steps that become blocks."""
     end = f"{goal}:{subject}" if subject else goal
-    leading = [step for step in road.steps if step.id in road.rests[end] or step.id == end]
+    leading = [step for step in ordered.steps if step.id in ordered.rests[end] or step.id == end]
     chosen = [step for step in leading if step.rule in NEEDED[goal]] + _energy(leading)
     for rule in BESIDES[goal]:
         alike = [step for step in leading if step.rule == rule]
         chosen += alike if len(chosen) + len(alike) <= MOST else []
     ids = {step.id for step in chosen}
-    return Road(tuple(step for step in leading if step.id in ids), {one: road.rests[one] & ids for one in ids})
+    return OrderedSteps(
+        tuple(step for step in leading if step.id in ids), {one: ordered.rests[one] & ids for one in ids}
+    )
 
 
 def _energy(leading: Sequence[Step]) -> list[Step]:
@@ -216,22 +218,22 @@ def _wrong(step: Step, way: FaultySolution, solution: Solution, subject: str) ->
 # --- as they are shown -----------------------------------------------------------------------------------------------
 
 
-def shuffled(road: Road, distractor: tuple[Step, FaultySolution] | None, source: random.Random) -> Blocks:
+def shuffled(ordered: OrderedSteps, distractor: tuple[Step, FaultySolution] | None, source: random.Random) -> Blocks:
     """The blocks in an order in which they do not stand right, with letters in that order."""
-    drawn: list[tuple[Step, FaultySolution | None]] = [(step, None) for step in road.steps]
+    drawn: list[tuple[Step, FaultySolution | None]] = [(step, None) for step in ordered.steps]
     drawn += [distractor] if distractor else []
     while True:
         source.shuffle(drawn)
         named = tuple(Block(letter, *one) for letter, one in zip(ascii_lowercase, drawn, strict=False))
-        found = _blocks(named, road)
+        found = _blocks(named, ordered)
         if not found.holds([block.id for block in named if block.mistake is None]):
             return found
 
 
-def _blocks(shown: tuple[Block, ...], road: Road) -> Blocks:
+def _blocks(shown: tuple[Block, ...], ordered: OrderedSteps) -> Blocks:
     letters = {block.step.id: block.id for block in shown if block.mistake is None}
-    before = {letters[one]: frozenset(letters[other] for other in rests) for one, rests in road.rests.items()}
-    return Blocks(shown, before, tuple(letters[step.id] for step in road.steps))
+    before = {letters[one]: frozenset(letters[other] for other in rests) for one, rests in ordered.rests.items()}
+    return Blocks(shown, before, tuple(letters[step.id] for step in ordered.steps))
 
 
 def shown_relations(step: Step) -> tuple[Relation, ...]:
