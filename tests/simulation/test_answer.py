@@ -9,8 +9,10 @@ from time import perf_counter
 
 import numpy as np
 import pytest
+from tests.simulation.constrained import pendulum
 from tests.simulation.scenes import document
 
+from deltaq.mechanics.writing import write_scene
 from deltaq.simulation.service import run
 
 REST = {"phi1": {"value": 0.0, "rate": 0.0}, "phi2": {"value": 0.0, "rate": 0.0}}
@@ -164,3 +166,43 @@ def test_an_answer_leaves_room_for_differences_below_the_largest_double(share: f
     scene = document({"x": (0.0, 64.0)}, {"m": 1.0, "c": far / 64.0}, {"mass": ("m", ["x", "0"])}, points=points)
     answer = ask(scene=scene, t_end=1.0)
     assert len(answer["t"]) == len(answer["positions"]["far"]) == samples
+
+
+@pytest.mark.parametrize(
+    ("x", "rate", "told"),
+    [
+        ((1.0, 0.0), (8e-10, 0.0), None),
+        ((1.0, 0.0), (1.5e-9, 0.0), {"x": {"value": 0.0, "rate": -1.5e-9}}),
+        ((1.0 + 8e-10, 0.0), (0.0, 0.0), None),
+        ((1.0 + 1.5e-9, 0.0), (0.0, 0.0), {"x": {"value": -1.5e-9, "rate": 0.0}}),
+        ((0.6, -0.8), (800.0 + 1e-6, 600.0), None),
+        (
+            (0.6, -0.8),
+            (800.0 + 4e-6, 600.0),
+            {"x": {"value": 0.0, "rate": -1.44e-6}, "y": {"value": 0.0, "rate": 1.92e-6}},
+        ),
+    ],
+)
+def test_what_was_added_to_initial_values_is_told_from_a_billionth_of_them_or_of_one_on(
+    x: tuple[float, float], rate: tuple[float, float], told: object
+) -> None:
+    """On a circle of 1 m: what lies along the rod is taken away, of values and of rates."""
+    initial = {name: {"value": q, "rate": v} for name, q, v in zip("xy", x, rate, strict=True)}
+    assert ask(scene=write_scene(pendulum()), t_end=0.01, initial=initial)["moved"] == told
+
+
+def test_friction_is_told_beside_what_could_hold() -> None:
+    """A block of 2 kg at 3 m/s is stopped by μ m g = 8 N less a pull of 2 N, and held by 2 N from t = 1 s on."""
+    loads = [
+        {"name": "pull", "kind": "force", "at": "block", "force": ["2", "0"]},
+        {"name": "floor", "kind": "friction", "coordinate": "x", "force": "0.4*m*g"},
+    ]
+    scene = document({"x": (0.0, 3.0)}, {"m": 2.0, "g": 10.0}, {"block": ("m", ["x", "0"])}, loads)
+    told = ask(scene=scene, include=["loads"])
+    force, largest = (np.array(told["friction"]["floor"][name]) for name in ("force", "largest"))
+    t = np.array(told["t"])
+    assert set(told["friction"]) == {"floor"}
+    np.testing.assert_allclose(largest, 8.0, rtol=1e-12)
+    np.testing.assert_allclose(force[t < 0.99], -8.0, rtol=1e-12)
+    np.testing.assert_allclose(force[t > 1.01], -2.0, rtol=1e-12)
+    assert "friction" not in ask(scene=scene, include=["coordinates"])

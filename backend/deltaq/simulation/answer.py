@@ -45,8 +45,7 @@ def answer(
         parts["energy"] = _energy(request, problem, trajectory, seen, errors)
     if "error" in request.include:
         parts["error"] = _error(problem, trajectory, request.tolerance)
-    if problem.is_constrained:
-        parts |= _constrained(request, problem, trajectory)
+    parts |= _constrained(request, problem, trajectory)
     if "loads" in request.include and frictions:
         parts["friction"] = _friction(frictions, column)
     if "multipliers" in request.include and problem.reactions:
@@ -136,9 +135,9 @@ def _energy(request: Request, problem: Problem, trajectory: Trajectory, seen: Ob
     """Energies and the balance E + V − ∫P dt, constant when all is right; P and the work by itself if asked for."""
     column, states = WRITERS[request.columns], np.hstack([trajectory.values, trajectory.rates])
     balance = seen.kinetic + seen.potential - trajectory.work
-    scale = float(np.max(np.abs(seen.kinetic) + np.abs(seen.potential), initial=0.0))
+    scale = float(np.max(np.abs(seen.kinetic) + np.abs(seen.potential), initial=1e-300))
     # Second order in the error where the energy is flat, hence more digits than the error itself supports.
-    doubt = np.maximum(1e-3 * errors, 1e-14) * max(scale, 1e-300)
+    doubt = np.maximum(1e-3 * errors, 1e-14) * scale
     energies = {"kinetic": seen.kinetic, "potential": seen.potential, "balance": balance}
     if "power" in request.include:
         energies["power"] = power(problem, trajectory.times, states, trajectory.stretches)
@@ -152,7 +151,7 @@ def _energy(request: Request, problem: Problem, trajectory: Trajectory, seen: Ob
 
 
 def _constrained(request: Request, problem: Problem, trajectory: Trajectory) -> Document:
-    """The largest |g|, the multipliers that are not unique, and by how much the initial values were moved."""
+    """Of constraints the largest |g|, the multipliers that are not unique, and how the initial values were moved."""
     reactions, moved = trajectory.reactions, problem.moved
     if reactions is None or moved is None:
         return {}
