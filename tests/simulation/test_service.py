@@ -11,6 +11,7 @@ import sys
 
 import numpy as np
 import pytest
+from tests.simulation.constrained import pendulum
 from tests.simulation.scenes import double_pendulum, oscillator
 
 from deltaq.contract.simulation import COLUMNS
@@ -204,6 +205,22 @@ def test_a_position_without_value_ends_the_answer(x: float, times: list[float], 
     answer = ask(scene=document, t_end=2.0, samples=5)
     assert (answer["status"], answer["reason"]) == ("diverged", {"code": "not_finite", "parameters": {"t": reached}})
     assert (answer["t"], answer["t_reached"]) == (times, reached)
+
+
+def test_an_answer_that_ends_has_all_its_columns_up_to_there() -> None:
+    """A pendulum in x and y, let go at x = −1: √(−x) is real until it passes below the pivot, after 0.59 s."""
+    document = write_scene(pendulum(x=-1.0))
+    document["points"] = [*document["points"], {"name": "image", "position": ["sqrt(-x)", "0"]}]
+    whole, answer = (ask(scene=scene, t_end=1.0, samples=11) for scene in (write_scene(pendulum(x=-1.0)), document))
+    assert answer["t"] == whole["t"][:6]
+    parts = [
+        *(answer[part] for part in ("coordinates", "rates", "positions", "loads", "multipliers")),
+        {name: each for name, each in answer["energy"].items() if isinstance(each, list)},
+        {"estimate": answer["error"]["estimate"], **answer["error"]["multipliers"]},
+    ]
+    assert [name for part in parts for name, column in part.items() if len(column) != 6] == []
+    assert answer["error"]["multipliers"] == {"S": whole["error"]["multipliers"]["S"][:6]}
+    assert answer["multipliers"] == {"S": whole["multipliers"]["S"][:6]}
 
 
 @pytest.mark.parametrize(
