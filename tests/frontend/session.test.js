@@ -1,8 +1,10 @@
 import { strict as assert } from "node:assert";
 import { test } from "node:test";
+import { ApiError } from "../../frontend/model/api.js";
+import { problemsIn } from "../../frontend/model/attempts.js";
 import { documentIn } from "../../frontend/model/own.js";
 import { HOME } from "../../frontend/model/url.js";
-import { derivation, failure, own, page, rest, settled, swing } from "./server.js";
+import { busy, derivation, failure, own, page, rest, settled, swing } from "./server.js";
 
 /** @type {any} */
 const lines = ["a", "b", "c"].map((id, index) => ({ step: { id }, index }));
@@ -99,6 +101,12 @@ test("without scenes the page says why, and shows none", async () => {
   await last("methods").answer({ methods: [] });
   await last("scenes").refuse();
   assert.deepEqual([get().failures.page, asked().includes("scene")], [failure, false]);
+});
+
+test("what is wrong is what the server says, and nothing where it could not be asked", () => {
+  const problems = [{ code: "unknown-name", message: "?", pointer: "/value" }];
+  assert.deepEqual(problemsIn(new ApiError(/** @type {any} */ ({ ...failure, problems }))), problems);
+  assert.deepEqual([problemsIn(busy()), problemsIn(new Error("gone"))], [[], []]);
 });
 
 test("without words the page says why", async () => {
