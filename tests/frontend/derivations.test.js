@@ -1,6 +1,7 @@
 import { strict as assert } from "node:assert";
 import { test } from "node:test";
-import { missingIn } from "../../frontend/model/derivations.js";
+import { isUnderWay, missingIn } from "../../frontend/model/derivations.js";
+import { scene } from "./fixtures.js";
 import { derivation, failure, own, page } from "./server.js";
 
 const ids = (/** @type {any} */ state) =>
@@ -192,4 +193,52 @@ test("a last chapter that was overtaken is not put behind another scene's equati
   await last("derive").answer(late("other"));
   await rest.answer(late("c"));
   assert.deepEqual(ids(get()), ["other"]);
+});
+
+test("only what is said of the whole last chapter is said to be missing", () => {
+  const told = (/** @type {string} */ part, /** @type {string} */ reason) => ({ part, reason, text: "" });
+  for (const [left_out, missing, under_way] of /** @type {[any, any, boolean][]} */ ([
+    [undefined, null, false],
+    [[], null, false],
+    [[told("impacts", "later")], null, false],
+    [[told("impacts", "later"), told("model", "budget")], told("model", "budget"), false],
+    [[told("model", "later")], told("model", "later"), true],
+  ])) {
+    const about = { ...derivation("a"), ...(left_out && { left_out }) };
+    assert.deepEqual([missingIn(/** @type {any} */ (about)), isUnderWay(/** @type {any} */ (about))], [missing, under_way]);
+  }
+  assert.deepEqual([missingIn(null), isUnderWay(null)], [null, false]);
+});
+
+test("an error of the page's own is none of the last chapter: it is thrown on", async () => {
+  const { session, last } = page();
+  const done = session.formulate("hamilton");
+  await last("derive").answer(early("a"));
+  await Promise.all([assert.rejects(done, /broken/), last("derive").refuse(new TypeError("broken"))]);
+});
+
+/** One step with a formula, and within it another. */
+const told = { ...derivation("a"), chapters: [{ id: "only", title: "", steps: [{ id: "a", latex: "m+u", substeps: [{ id: "b", latex: "m" }] }] }] };
+const formulas = (/** @type {any} */ { derivation, lines }) =>
+  [derivation.chapters[0].steps[0], derivation.chapters[0].steps[0].substeps[0], lines[0].step].map(({ marked }) => marked);
+
+test("symbols of the scene are marked in all steps; where the scene comes later, from then on", async () => {
+  const marked = ["\\htmlClass{p-0}{m}+u", "\\htmlClass{p-0}{m}", "\\htmlClass{p-0}{m}+u"];
+  const here = page();
+  void here.session.formulate("hamilton");
+  await here.last("derive").answer(told);
+  assert.deepEqual(formulas(here.get()), marked);
+  const later = page();
+  void later.session.choose("other");
+  await later.last("derive").answer(told);
+  assert.deepEqual(formulas(later.get()), [undefined, undefined, undefined]);
+  await later.last("scene").answer(scene);
+  assert.deepEqual(formulas(later.get()), marked);
+});
+
+test("in a scene of one's own its own symbols are marked", async () => {
+  const { session, last, get } = page({ place: /** @type {any} */ ({ scene: "own" }), own: { ...own, parameters: [{ name: "u" }] } });
+  void session.formulate("hamilton");
+  await last("derive").answer(told);
+  assert.deepEqual(formulas(get())[0], "m+\\htmlClass{p-0}{u}");
 });

@@ -9,7 +9,8 @@ from time import perf_counter
 
 import numpy as np
 import pytest
-from tests.simulation.constrained import pendulum
+from tests.simulation.constrained import G, particle, pendulum, rod
+from tests.simulation.constrained import scene as constrained
 from tests.simulation.scenes import document
 
 from deltaq.mechanics.writing import write_scene
@@ -206,3 +207,31 @@ def test_friction_is_told_beside_what_could_hold() -> None:
     np.testing.assert_allclose(force[t < 0.99], -8.0, rtol=1e-12)
     np.testing.assert_allclose(force[t > 1.01], -2.0, rtol=1e-12)
     assert "friction" not in ask(scene=scene, include=["coordinates"])
+
+
+def test_reactions_are_told_as_far_as_the_motion_knows_them() -> None:
+    """Three cranks carry a beam that two would carry, beside a mass on a rod of its own, hanging at rest."""
+    scene = constrained(
+        {"u": (0.0, 0.0), "v": (-2.0, 0.0), "x": (0.0, 1.0), "y": (-1.0, 0.0), "phi": (0.0, 0.0)},
+        {"m": 1.0, "l": 1.0, "k": 2.0, "b": 1.0, "g": G},
+        [
+            particle("one", "x - b*cos(phi)", "y - b*sin(phi)"),
+            particle("mid", "x", "y"),
+            particle("two", "x + b*cos(phi)", "y + b*sin(phi)"),
+            particle("ball", "u", "v"),
+        ],
+        [
+            rod("S1", "left", "one"),
+            rod("S2", "pivot", "mid"),
+            rod("T", "pivot", "ball", "k"),
+            rod("S3", "right", "two"),
+        ],
+        points={"left": ["-b", "0"], "pivot": ["0", "0"], "right": ["b", "0"]},
+    )
+    told = ask(scene=write_scene(scene), t_end=0.3, samples=4)
+    assert (told["undetermined"], told["moved"]) == (["S1", "S2", "S3"], None)
+    assert told["multipliers"] == {"T": [G] * 4}
+    assert told["reactions"] == {"T": {"unit": "", "of_rod": True}}
+    assert told["error"]["multipliers"].keys() == {"T"}
+    # φ is zero but for rounding, which is not to have lost its digits.
+    assert (told["status"], told["error"]["horizon"]) == ("ok", None)

@@ -73,7 +73,7 @@ def estimate(problem: Problem, coarse: Run, fine: Run, factor: float) -> Estimat
     floor, sizes = _rounding_floor(problem, times, fine), np.abs(states[:n])
     ones = np.maximum(1.0, sizes)
     errors = _known(np.maximum(spread[:n], floor * ones))
-    horizon = _horizon(problem, times, errors, sizes)
+    horizon = _horizon(problem, times, errors, sizes, floor)
     if horizon is not None:
         # Beyond the horizon both runs are wrong, and their difference may shrink by chance.
         late = times >= horizon
@@ -332,10 +332,13 @@ def _windowed(window: Floats, width: int) -> Floats:
     return np.asarray(np.maximum(window[:, : window.shape[1] - rest], window[:, rest:]))
 
 
-def _horizon(problem: Problem, times: Floats, errors: Floats, sizes: Floats) -> float | None:
-    """The first time at which the error of a coordinate is as large as the coordinate, or a sizeable angle."""
+def _horizon(problem: Problem, times: Floats, errors: Floats, sizes: Floats, floor: Floats) -> float | None:
+    """The first time at which the error of a coordinate is as large as the coordinate, or a sizeable angle.
+
+    A coordinate that never exceeds the floor of rounding is zero: nothing of it can be lost.
+    """
     scale = _sizes(problem, sizes)
-    lost = ((errors >= LOST * scale) & (scale > 0)).any(axis=0)
+    lost = ((errors >= LOST * scale) & (scale > floor)).any(axis=0)
     return float(times[np.argmax(lost)]) if lost.any() else None
 
 
