@@ -30,6 +30,10 @@ test("a derivation is asked for by scene, language, formulation and the number o
       { scene: "own" },
       { scene: own, lang: "en", formulation: "dalembert-lagrange" },
     ],
+    [
+      { scene: "swing", more: "canonical", release: "l,y" },
+      { scene: "swing", lang: "en", formulation: "dalembert-lagrange", canonical: true, release: ["l", "y"] },
+    ],
   ])) {
     const { session, last } = page({ place, own });
     void session.formulate(place.formulation ?? "dalembert-lagrange");
