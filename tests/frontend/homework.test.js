@@ -118,6 +118,38 @@ test("a draft out of anything", () => {
   assert.deepEqual(draftOf({ syntax: "plain", texts: { plain: ["a", 3] }, hints: 9, tries: -1, checked: { verdict: 3 } }), { ...BLANK, syntax: "plain", texts: { plain: ["a"], latex: [] }, hints: 3 });
 });
 
+test("a draft that is whole is kept as it is; of one that is not, what is", () => {
+  const verdict = { outcome: "wrong" };
+  const whole = { syntax: "plain", texts: { plain: ["a"], latex: ["b", "c"] }, converted: { from: "plain", texts: ["a"] }, checked: { verdict, syntax: "plain", value: "a", lang: "de" }, tries: 2, hints: 1, solved: true, shown: true };
+  assert.deepEqual(draftOf(whole), whole);
+  for (const [given, kept] of /** @type {[any, any][]} */ ([
+    [{ converted: { from: "html", texts: ["a", 1] } }, { converted: { from: "latex", texts: ["a"] } }],
+    [{ converted: "plain", texts: "a" }, {}],
+    [{ checked: { verdict: { outcome: 3 } } }, {}],
+    [{ tries: 1.5, hints: "2", solved: 1, shown: "yes" }, {}],
+    [{ hints: 3, tries: 12 }, { hints: 3, tries: 12 }],
+  ])) assert.deepEqual(draftOf(given), { ...BLANK, ...kept });
+});
+
+test("records lie in the browser under their names; a file has them in order, and nothing of others", () => {
+  const keeper = storage({ unrelated: "1", "deltaq.homework.1/b": "2", "deltaq.homework.1/a": "{", "deltaq.homework.10/c": "3" });
+  const progress = createProgress(keeper);
+  assert.equal(progress.write("c", { name: "Ada", id: 7 }), true);
+  assert.equal(keeper.getItem("deltaq.homework.1/c"), '{"name":"Ada","id":7}');
+  assert.equal(progress.exported(), JSON.stringify({ format: "deltaq-homework-1", records: { a: null, b: 2, c: { name: "Ada", id: 7 } } }, null, 1));
+  assert.deepEqual(["a", "b", "c", "d"].map((key) => progress.who(key)), [{ name: "", id: "" }, { name: "", id: "" }, { name: "Ada", id: "" }, { name: "", id: "" }]);
+  const broken = { ...keeper, get length() { throw new Error("closed"); } };
+  assert.equal(createProgress(/** @type {any} */ (broken)).exported(), JSON.stringify({ format: "deltaq-homework-1", records: {} }, null, 1));
+});
+
+test("a file of two million letters is taken, one of more is not", () => {
+  const file = (/** @type {number} */ length) => {
+    const text = JSON.stringify({ format: "deltaq-homework-1", records: { a: "" } });
+    return text.replace('""', `"${"x".repeat(length - text.length)}"`);
+  };
+  assert.deepEqual([2_000_000, 2_000_001].map((length) => createProgress(storage()).imported(file(length))), [1, null]);
+});
+
 test("lines out of anything: what is none is passed over", () => {
   const line = { task: "lagrangian", syntax: "plain", value: "T - V" };
   const kept = [line, { ...line, syntax: "html" }, { ...line, task: 3 }, { ...line, value: null }, null, "T", [line]];
