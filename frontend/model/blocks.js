@@ -10,6 +10,8 @@ import { MATRIX, plain } from "./parts.js";
 /** A matrix or column by itself. */
 const CALLED = /^\\mathbf [a-zA-Z](?: _ \w)?$/;
 const BODY = /^\\begin\{bmatrix\}([\s\S]*)\\end\{bmatrix\}$/;
+/** What such a one is equal to where it is one line. */
+const LINE = /^= (?:\\mathrm\{diag\}|\\left)\(/;
 /** Em: a column lies in a line up to this width. */
 const LYING = 16;
 
@@ -65,10 +67,15 @@ function lying(entries) {
   return entries.length > 1 && sizeOf(row).width <= LYING ? [row] : entries;
 }
 
-/** Matrices whose blocks have names, and the columns that belong to them. @param {readonly Part[]} parts */
+/** What the second derivatives of constraints leave on the right side, as in A q̈ = −γ. */
+const REST = "-\\gamma";
+
+/** Matrices whose blocks have names, and the columns that belong to them. @param {readonly Part[]} parts @returns {Part[]} */
 export function inBlocks(parts) {
   const named = namedIn(parts);
-  return parts.map((part) => {
+  /** @type {Part[]} */
+  const below = [];
+  const blocks = parts.map((part) => {
     /** @type {{at: number, size: number} | null} */
     let cutAt = null;
     const right = withMatrices(part.right, (matrix, entries) => {
@@ -78,11 +85,61 @@ export function inBlocks(parts) {
       if (found) return bracketed(found.names);
       if (!cutAt || entries[0].length > 1 || entries.length !== cutAt.size) return matrix;
       const halves = [entries.slice(0, cutAt.at), entries.slice(cutAt.at)];
-      const block = (/** @type {string[][]} */ half) => columnName(half, named) ?? lying(half.map(([entry]) => entry));
+      const block = (/** @type {string[][]} */ half) => {
+        const name = columnName(half, named);
+        if (name || isShort(half)) return name ?? lying(half.map(([entry]) => entry));
+        below.push({ left: REST, right: `= ${bracketed(half)}`, gap: part.gap });
+        return [REST];
+      };
       return bracketed(halves.flatMap(block).map((entry) => [entry]));
     });
     return { ...part, right };
   });
+  const names = named.map(({ name }) => name);
+  const last = parts.reduce((found, { left }, i) => (names.includes(left) ? i + 1 : found), 0);
+  return linesFirst([...blocks.slice(0, last), ...below, ...blocks.slice(last)].map(inLine));
+}
+
+/** Of what is written out one after the other, what is one line first: these share rows. @param {readonly Part[]} parts */
+function linesFirst(parts) {
+  const isNamed = (/** @type {Part} */ { left, right }) =>
+    CALLED.test(plain(left)) && (MATRIX.test(right) || LINE.test(right));
+  const first = parts.findIndex(isNamed);
+  const behind = parts.findIndex((part, i) => i > first && !isNamed(part));
+  if (first < 0) return [...parts];
+  const end = behind < 0 ? parts.length : behind;
+  const named = parts.slice(first, end);
+  const [lines, matrices] = [LINE, MATRIX].map((form) => named.filter(({ right }) => form.test(right)));
+  return [...parts.slice(0, first), ...lines, ...matrices, ...parts.slice(end)];
+}
+
+/** Whether a column has room in a line, or nothing to gain by a name. @param {string[][]} column */
+const isShort = (column) =>
+  sizeOf(lying(column.map(([entry]) => entry))[0]).width <= LYING && lying(column.map(([entry]) => entry)).length === 1;
+
+/** A matrix by itself in one line, where it has one column or nothing but its diagonal. @param {Part} part @param {number} _ @param {readonly Part[]} parts */
+function inLine(part, _, parts) {
+  const [, matrix] = part.right.match(MATRIX) ?? [];
+  if (
+    !matrix ||
+    !CALLED.test(plain(part.left)) ||
+    parts.some((other) => other !== part && other.right.includes(matrix))
+  )
+    return part;
+  const entries = entriesWithin(matrix);
+  const right = inOneLine(entries);
+  return right ? { ...part, right: `= ${right}` } : part;
+}
+
+/** @param {string[][]} entries */
+function inOneLine(entries) {
+  const single = entries.every((row) => row.length === 1);
+  const diagonal = entries.map((row, i) => row[i] ?? "");
+  const square = entries.length > 2 && entries[0].length === entries.length;
+  const bare = square && entries.every((row, i) => row.every((entry, j) => i === j || entry === "0"));
+  if (bare) return `\\mathrm{diag}(${diagonal.join(",\\, ")})`;
+  const [row, ...more] = single ? lying(entries.map(([entry]) => entry)) : [];
+  return row && !more.length && entries.length > 1 ? row : null;
 }
 
 /** @param {string[][]} column @param {readonly NamedMatrix[]} named */

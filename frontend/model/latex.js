@@ -58,14 +58,16 @@ export function entriesOf(body) {
 /** Every matrix of a formula made into something else. @param {string} latex @param {(matrix: string, entries: string[][]) => string} make */
 export const withMatrices = (latex, make) => latex.replace(MATRIX, (matrix, _, body) => make(matrix, entriesOf(body)));
 
-/** From one row of a matrix with fractions to the next, beyond what others have: set as closely they would touch. */
-const AIR = "\\\\[0.3em] ";
+/** From one row of a matrix with fractions to the next, beyond what others have: set as closely they would touch; fractions of numbers that are set small need less. */
+const AIR = { some: "\\\\[0.1em] ", full: "\\\\[0.3em] " };
 
 /** Matrices with fractions, their rows apart. @param {string} latex */
 export const airy = (latex) =>
-  latex.replace(MATRIX, (matrix) =>
-    /\\[dt]?frac/.test(matrix) ? matrix.replace(/\\\\(?!\[)\s*/g, () => AIR) : matrix,
-  );
+  latex.replace(MATRIX, (matrix) => {
+    const large = /\\d?frac|\\tfrac(?!\{\d+\}\{\d+\})/.test(matrix);
+    const apart = large ? AIR.full : /\\tfrac/.test(matrix) ? AIR.some : null;
+    return apart ? matrix.replace(/\\\\(?!\[)\s*/g, () => apart) : matrix;
+  });
 
 /** A matrix is as wide as its columns, each as wide as its widest entry. @param {string[][]} entries */
 function width(entries) {

@@ -9,6 +9,7 @@ import { cut, tokensOf, weight } from "./latex.js";
 import { joins } from "./linebreak.js";
 import { sizeOf } from "./measure.js";
 import { equationsOf, isEquivalent, plain } from "./parts.js";
+import { overReactions } from "./reactions.js";
 
 /** @typedef {import("./parts.js").Part} Part */
 
@@ -27,7 +28,7 @@ const OFTEN = 3;
 const NARROW = 9;
 /** What a left side is said to depend on. */
 const ARGUMENTS = /\((?:\\htmlClass\{q-\d+\}\{[^{}]*(?:\{\w+\})?\}(?:,\s*)?){2,}\)$/;
-/** Terms of a sum that are alike, from so many on. */
+/** Terms of a sum that are alike, and symbols that are counted through, from so many on. */
 const MANY = 3;
 /** Em: a line of a slide has about so many, with equations so far apart and so high. */
 const [LINE, APART, HIGH] = [26, 2, 2.6];
@@ -67,7 +68,7 @@ function byRows(parts) {
     const [left, right] = [one, other].map(entriesWithin);
     if (left.length !== right.length || left[0].length > 1 || right[0].length > 1) return [part];
     const rows = left.map(([entry], i) => ({ left: "", right: `${entry} = ${right[i][0]}`, gap: GAP }));
-    const width = onceForAll(rows).reduce((sum, row) => sum + sizeOf(row.right).width + APART, 0);
+    const width = onceForAll(overReactions(rows, GAP)).reduce((sum, row) => sum + sizeOf(row.right).width + APART, 0);
     const { height, depth } = sizeOf(part.right);
     if (HIGH * Math.ceil(width / LINE) >= height + depth) return [part];
     split = true;
@@ -121,7 +122,17 @@ function remark(of) {
   const all = [...new Set(of.flat())];
   const pairs = of[0].length > 1;
   if (pairs && of.length !== (all.length * (all.length - 1)) / 2) return null;
-  return { left: "", right: `\\quad (q_i${pairs ? ",\\, q_k" : ""} = ${all.join(",\\, ")})`, gap: GAP };
+  return { left: "", right: `\\quad (q_i${pairs ? ",\\, q_k" : ""} = ${listed(all)})`, gap: GAP };
+}
+
+/** Symbols that are counted through, from so many on, by the first and the last of them. @param {readonly string[]} symbols */
+function listed(symbols) {
+  const counted = symbols.map((symbol) => plain(symbol).match(/^(.*?) _ (\d+)$/) ?? []);
+  const runs = counted.every(
+    ([, letter, index], i) => letter === counted[0][1] && Number(index) === i + Number(counted[0][2]),
+  );
+  const shown = runs && symbols.length > MANY ? [symbols[0], "\\dots", symbols[symbols.length - 1]] : symbols;
+  return shown.join(",\\, ");
 }
 
 /** Equations that are alike but for their coordinates, written once. @param {readonly Part[]} parts @returns {Part[]} */
@@ -255,6 +266,6 @@ function withLetters(parts) {
 /** The rows of a formula in shorthand: with all of it, and without letters for functions, which have to be explained. @param {readonly Part[]} parts @returns {Part[][]} */
 export function abbreviated(parts) {
   const bare = parts.map((part) => ({ ...part, left: part.left.replace(ARGUMENTS, "") }));
-  const shorter = saidOnce(overAll(onceForAll(byRows(inBlocks(bare)))));
+  const shorter = saidOnce(overAll(onceForAll(overReactions(byRows(inBlocks(bare)), GAP))));
   return [withLetters(shorter), shorter];
 }

@@ -132,6 +132,44 @@ test("shorthand: a matrix of blocks that have names", () =>
 test("shorthand: a matrix with a block that has none is written out", () =>
   assert.ok(brief(system("d")).startsWith(whole("d").replace(/[\s{}]/g, ""))));
 
+/** Two constraints of three coordinates, of which the last is in one of them only; classes as on the page. */
+const constraint = (/** @type {string} */ name) =>
+  `\\htmlClass{p-1 constraint-${name} q-3}{\\Phi_{\\text{${name}}}}`;
+const reaction = (/** @type {string} */ name, /** @type {string} */ by) =>
+  `\\htmlClass{constraint-${name}}{\\lambda_${name}\\,\\frac{\\partial ${constraint(name)}}{\\partial ${by}}}`;
+const second = (/** @type {string} */ name) =>
+  `\\frac{\\mathrm{d}^2 ${constraint(name)}}{\\mathrm{d} t^2}`;
+const BOUND = `\\begin{aligned}& ${MATRIX(...[x, psi, phi].map((by) => [`E_{${by}}`]), [second("u")], [second("v")])} = ${MATRIX([`${reaction("u", x)} + ${reaction("v", x)}`], [`${reaction("u", psi)} + ${reaction("v", psi)}`], [reaction("v", phi)], ["0"], ["0"])}
+  \\\\ \\;\\Longleftrightarrow\\; & ${MATRIX(["m", "0", "0", "1", "0"], ["0", "n", "0", "a", "b"], ["0", "0", "k", "0", "c"], ["1", "a", "0", "0", "0"], ["0", "b", "c", "0", "0"])}\\,${MATRIX(["\\ddot{x}"], ["\\ddot{y}"], ["\\ddot{z}"], ["-\\lambda_u"], ["-\\lambda_v"])} = ${MATRIX(["F"], ["0"], ["0"], ["h".repeat(40)], ["0"])}
+  \\\\ \\mathbf{M} &= ${MATRIX(["m", "0", "0"], ["0", "n", "0"], ["0", "0", "k"])} \\\\ \\mathbf{A} &= ${MATRIX(["1", "a", "0"], ["0", "b", "c"])} \\\\ \\mathbf{f} &= ${MATRIX(["F"], ["0"], ["0"])}\\end{aligned}`;
+
+test("shorthand: reactions are one sum, constraints have one law, and what is one line comes first", () => {
+  const found = brief(BOUND).replaceAll("\\", "");
+  const rest = "-gamma=beginbmatrix" + "h".repeat(40) + "0endbmatrix";
+  const order = [
+    "E_q_i=sumnolimits_jlambda_jfracpartialPhi_jpartialq_i(q_i=x,psi,varphi_1)",
+    "fracd^2Phi_jdt^2=0",
+    "(lambda_j=lambda_u,lambda_v)",
+    ";Longleftrightarrow;beginbmatrixbf".slice(1, 19),
+    "M=diag(m,n,k)",
+    "f=left(F,0,0right)^T",
+    "A=beginbmatrix",
+    rest,
+  ];
+  const places = order.map((one) =>
+    found.replaceAll("mathbf", "").indexOf(one),
+  );
+  assert.ok(!places.includes(-1), `${found}\n${places}`);
+  assert.deepEqual(
+    places,
+    [...places].sort((a, b) => a - b),
+  );
+});
+test("shorthand: reactions of one constraint stay", () => {
+  const one = `\\begin{aligned}E_{${x}} &= ${reaction("u", x)} \\\\ E_{${psi}} &= ${reaction("u", psi)}\\end{aligned}`;
+  assert.ok(!brief(one).includes("sum"));
+});
+
 test("shorthand: equal columns are equations beside each other where that is less high, and what follows is said of all", () => {
   const columns = [
     ["a", "b", "c", "d"],
