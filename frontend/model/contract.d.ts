@@ -3017,7 +3017,7 @@ export interface components {
             work?: components["schemas"]["Column"] | null;
             /**
              * Works
-             * @description whether other forces do any work; else the balance is kinetic + potential
+             * @description whether other forces do work in this motion; else the balance is kinetic + potential
              */
             works: boolean;
             /** @description constant when all is right */

@@ -5,6 +5,7 @@ from __future__ import annotations
 import pytest
 import sympy as sp
 from tests.derivation.model_scenes import heavy_top, model_steps, particle, rotating_hoop, spherical_pendulum
+from tests.simulation.scenes import scene
 
 from deltaq.derivation.conservation import cyclic, is_energy, jacobi_energy, jacobi_energy_rate, reduction
 from deltaq.derivation.equilibria import free_coordinates
@@ -41,10 +42,21 @@ def test_jacobi_energy_of_the_hoop_is_not_the_energy() -> None:
         pytest.param("pendulum", "energy-conserved", id="pendulum"),
         pytest.param("elastic-pendulum", "energy-changes", id="follower force"),
         pytest.param("guided-pendulum", "changes", id="guide"),
+        pytest.param("bead-on-rotating-hoop", "conserved", id="a hoop that has to be driven"),
+        pytest.param("foucault", "both-conserved", id="a frame that turns takes no work"),
     ],
 )
 def test_what_is_said_of_the_jacobi_energy(scene: str, outcome: str) -> None:
     assert model_steps(load_scene(scene))["jacobi-energy"].about["outcome"] == outcome
+
+
+def test_where_the_motion_is_too_long_nothing_is_said_of_its_work() -> None:
+    """Four masses in a frame that turns: four accelerations are not written out."""
+    names = ("a", "b", "c", "d")
+    turning = {name: [f"{name}*cos(omega*t)", f"{name}*sin(omega*t)"] for name in names}
+    masses = {name: ("m", position) for name, position in turning.items()}
+    system = scene({name: (1.0, 0.0) for name in names}, {"m": 1.0, "omega": 2.0}, masses)
+    assert model_steps(system)["jacobi-energy"].about["outcome"] == "conserved-at-least"
 
 
 def test_a_force_without_power_leaves_the_energy() -> None:

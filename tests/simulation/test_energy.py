@@ -52,6 +52,21 @@ def test_a_drive_feeds_energy_in() -> None:
     assert found["drift"] < 1e-7 * gain.max()
 
 
+@pytest.mark.parametrize(
+    ("name", "works"),
+    [
+        pytest.param("bead-on-rotating-hoop", True, id="a hoop that has to be driven"),
+        pytest.param("foucault", False, id="a frame that turns about a central force"),
+        pytest.param("damped-pendulum", True, id="drag"),
+        pytest.param("pendulum", False, id="weight alone"),
+        pytest.param("bouncing-ball", True, id="impacts"),
+    ],
+)
+def test_whether_anything_works(name: str, works: bool) -> None:
+    answer = run({"scene": name, "t_end": 3.0, "tolerance": 1e-9, "samples": 31})
+    assert answer["energy"]["works"] is works  # type: ignore[index]
+
+
 @pytest.mark.parametrize("name", [*scene_ids(), *OWN])
 def test_the_balance_of_every_scene_stays(name: str) -> None:
     """E + V − ∫P dt as it stands in the answer, however much is fed in or taken out."""

@@ -84,7 +84,9 @@ class Energy(Answer):
         None, description="of all that is not in kinetic + potential, in watt; where `power` is included"
     )
     work: Column | None = Field(None, description="the power's integral over the time; where `power` is included")
-    works: bool = Field(description="whether other forces do any work; else the balance is kinetic + potential")
+    works: bool = Field(
+        description="whether other forces do work in this motion; else the balance is kinetic + potential"
+    )
     balance: Column = Field(description="constant when all is right")
     drift: float = Field(description="largest departure of the balance from its start")
 

@@ -8,6 +8,7 @@ import sympy as sp
 
 from ..language.derivatives import diff
 from ..language.memory import cached_method
+from .released import accelerations
 from .system import System
 
 MOST_CYCLIC = 2
@@ -56,6 +57,19 @@ def jacobi_energy_rate(system: System) -> sp.Expr:
 def is_energy(system: System) -> bool:
     """Whether h = E + V."""
     return system.is_zero(jacobi_energy(system) - system.kinetic_energy - system.potential_energy)
+
+
+@cached_method
+def keeps_energy(system: System) -> bool | None:
+    """Whether d(E + V)/dt = 0 along the motion: prescribed motion need not do work. None where q̈ is too long to tell."""
+    by_motion = accelerations(system)
+    if by_motion is None:
+        return None
+    energy = system.kinetic_energy + system.potential_energy
+    steps = [(system.q(q), system.rate(q)) for q in system.free]
+    steps += [(system.rate(q), by_motion[system.acceleration(q)]) for q in system.free]
+    change = system.slope(energy, system.t) + sp.Add(*(system.slope(energy, x) * by for x, by in steps))
+    return system.is_zero(change)
 
 
 @dataclass(frozen=True)

@@ -145,7 +145,8 @@ def _energy(request: Request, problem: Problem, trajectory: Trajectory, seen: Ob
     shorter = _together(list(energies.values()), doubt, column)
     return {
         **{name: column.write(energy) for name, energy in zip(energies, shorter, strict=True)},
-        "works": problem.model.layout.is_powered or bool(trajectory.work.any()),
+        # A guide has a power by its formula even where the motion takes nothing from it, as a floor that turns.
+        "works": bool((np.abs(trajectory.work) > doubt).any()),
         "drift": short(float(np.max(np.abs(balance - balance[:1]), initial=0.0))),  # no sample where it cannot start
     }
 

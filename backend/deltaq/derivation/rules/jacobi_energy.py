@@ -6,7 +6,7 @@ Mechanics, 2nd ed., §15.
 
 from __future__ import annotations
 
-from ..conservation import is_energy, jacobi_energy, jacobi_energy_rate
+from ..conservation import is_energy, jacobi_energy, jacobi_energy_rate, keeps_energy
 from ..formula import Explicit, Formula, Named, Partial, Plus, Quantity, Rate, Term, Times, minus
 from ..step import Relation, Step
 from ..system import System
@@ -33,7 +33,9 @@ def _outcome(system: System) -> str:
     conserved = system.is_zero(jacobi_energy_rate(system))
     if is_energy(system):
         return "energy-conserved" if conserved else "energy-changes"
-    return "conserved" if conserved else "changes"
+    if not conserved:
+        return "changes"
+    return {True: "both-conserved", False: "conserved", None: "conserved-at-least"}[keeps_energy(system)]
 
 
 def _symbol(system: System, kind: str) -> Named:
