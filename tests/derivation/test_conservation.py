@@ -55,7 +55,7 @@ def test_where_the_motion_is_too_long_nothing_is_said_of_its_work() -> None:
     names = ("a", "b", "c", "d")
     turning = {name: [f"{name}*cos(omega*t)", f"{name}*sin(omega*t)"] for name in names}
     masses = {name: ("m", position) for name, position in turning.items()}
-    system = scene({name: (1.0, 0.0) for name in names}, {"m": 1.0, "omega": 2.0}, masses)
+    system = scene(dict.fromkeys(names, (1.0, 0.0)), {"m": 1.0, "omega": 2.0}, masses)
     assert model_steps(system)["jacobi-energy"].about["outcome"] == "conserved-at-least"
 
 

@@ -61,7 +61,7 @@ def is_energy(system: System) -> bool:
 
 @cached_method
 def keeps_energy(system: System) -> bool | None:
-    """Whether d(E + V)/dt = 0 along the motion: prescribed motion need not do work. None where q̈ is too long to tell."""
+    """Whether d(E + V)/dt = 0 along the motion, as what is prescribed need not do work; None where q̈ is too long."""
     by_motion = accelerations(system)
     if by_motion is None:
         return None
