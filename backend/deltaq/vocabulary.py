@@ -38,17 +38,17 @@ Stability = Literal["stable", "undecided", "unstable"]
 StabilityKind = Literal["family", "gyroscopic", "degenerate", "band"]
 # Why a search for equilibria is not complete: its operations were spent, equilibria are not isolated, or constraints
 # depend on one another in some of them.
-SearchEnd = Literal["budget", "continuum", "singular"]
+SearchEnd = Literal["budget", "continuum", "singular", "contacts"]
 # Parts that a derivation is complete without, and why one is missing: it has not been asked for, its operations were
 # spent, its time was over, it failed, or it is not made for scenes with constraints, or on rates; and of multipliers
 # written out: they are too long or too many.
 OptionalPart = Literal[
     "multipliers", "model", "equilibria", "small-motions", "integrals", "relative-equilibria", "canonical"
 ]
-Missing = Literal["later", "budget", "time", "failed", "constraints", "rates", "long", "many"]
+Missing = Literal["later", "budget", "time", "failed", "constraints", "rates", "long", "many", "ended"]
 # What is added to the name of a part that is missing for a reason of the scene's own, to name the sentence about it.
 OWN_REASONS: Mapping[Missing, str] = MappingProxyType(
-    {"constraints": "-constrained", "rates": "-rates", "long": "-long", "many": "-many"}
+    {"constraints": "-constrained", "rates": "-rates", "long": "-long", "many": "-many", "ended": "-ended"}
 )
 # Among which generators symmetries are sought: those affine in coordinates and time; motions of space and rigid bodies.
 GeneratorFamily = Literal["affine", "motions-of-space"]

@@ -3475,7 +3475,7 @@ export interface components {
              * Left Out
              * @description why it is not complete
              */
-            left_out: ("budget" | "continuum" | "singular") | null;
+            left_out: ("budget" | "continuum" | "singular" | "contacts") | null;
         };
         /**
          * EquilibriumValue
@@ -4736,7 +4736,7 @@ export interface components {
              * @description `later`: ask for it; `budget`: its operations are spent; `time`: its time is; `failed`: our bug; others are of the scene's own
              * @enum {string}
              */
-            reason: "later" | "budget" | "time" | "failed" | "constraints" | "rates" | "long" | "many";
+            reason: "later" | "budget" | "time" | "failed" | "constraints" | "rates" | "long" | "many" | "ended";
             /**
              * Text
              * @description that it is missing, and what to do about it

@@ -10,7 +10,9 @@ from tests.simulation.scenes import scene
 from deltaq.derivation.conservation import cyclic, is_energy, jacobi_energy, jacobi_energy_rate, reduction
 from deltaq.derivation.equilibria import free_coordinates
 from deltaq.derivation.system import System
+from deltaq.mechanics.document import read_scene
 from deltaq.mechanics.library import load_scene
+from deltaq.mechanics.writing import write_scene
 
 
 def test_cyclic_coordinates() -> None:
@@ -48,6 +50,36 @@ def test_jacobi_energy_of_the_hoop_is_not_the_energy() -> None:
 )
 def test_what_is_said_of_the_jacobi_energy(scene: str, outcome: str) -> None:
     assert model_steps(load_scene(scene))["jacobi-energy"].about["outcome"] == outcome
+
+
+REASONS = [
+    pytest.param("damped-pendulum", "forces-work", id="drag"),
+    pytest.param("guided-pendulum", "time-enters", id="a guide that oscillates"),
+    pytest.param("driven-pendulum", "forces-work, time-enters", id="drag, and a moment V(q, t)"),
+    pytest.param("pendulum", "", id="nothing"),
+]
+
+
+@pytest.mark.parametrize(("scene", "reason"), REASONS)
+def test_why_it_changes(scene: str, reason: str) -> None:
+    assert model_steps(load_scene(scene))["jacobi-energy"].about["reason"] == reason
+
+
+def test_a_constraint_that_moves_is_a_reason() -> None:
+    document = write_scene(load_scene("cartesian-pendulum"))
+    (rod,) = document["constraints"]  # type: ignore[misc]
+    moving = {**rod, "kind": "equation", "equation": "x^2 + y^2 - (l + g*t^2)^2 = 0"}  # type: ignore[dict-item]
+    moving = {key: value for key, value in moving.items() if key not in ("from", "to", "length")}
+    steps = model_steps(read_scene(document | {"constraints": [moving]}))
+    assert steps["jacobi-energy"].about["reason"] == "constraints-move"
+
+
+@pytest.mark.parametrize(
+    ("scene", "potential"),
+    [pytest.param("foucault", "effective-potential", id="a frame that turns"), pytest.param("pendulum", "potential")],
+)
+def test_which_potential_decides(scene: str, potential: str) -> None:
+    assert model_steps(load_scene(scene))["equilibrium:1"].about["potential"] == potential
 
 
 def test_where_the_motion_is_too_long_nothing_is_said_of_its_work() -> None:

@@ -101,6 +101,66 @@ def test_follower_force_moves_the_equilibrium() -> None:
     assert (below.stability, above.stability) == ("undecided", "unstable")
 
 
+def watched(force: str, **event: str) -> Scene:
+    """A mass on a line under a force, and one event."""
+    document = write_scene(particle(["x"], {"k": 2.0, "g": 9.81, "h": 0.5}, ["x", "0"], push(force)))
+    return read_scene(document | {"events": [{"name": "event", **event}]})
+
+
+def push(force: str) -> dict[str, object]:
+    return {"kind": "force", "at": "bob", "force": [force, "0"]}
+
+
+BOUNCE = {"then": "bounce", "restitution": "1/2"}
+
+
+@pytest.mark.parametrize(
+    ("scene", "places", "outcomes"),
+    [
+        pytest.param(
+            watched("-k*x", value="h - x", **BOUNCE),
+            ["0"],
+            ["text", "contacts"],
+            id="beside a wall that is not reached",
+        ),
+        pytest.param(
+            watched("-k*x", value="x - h", **BOUNCE),
+            [],
+            ["none-within", "contacts-none", "equilibria-ended"],
+            id="behind",
+        ),
+        pytest.param(watched("-k*x", value="x", **BOUNCE), ["0"], ["text", "contacts"], id="just touching"),
+        pytest.param(watched("-m*g", value="x", **BOUNCE), [], ["none-open", "contacts-none"], id="a ball on a floor"),
+        pytest.param(watched("-k*x", value="x - h"), [], ["none-within", "equilibria-ended"], id="where it has ended"),
+        pytest.param(watched("-k*x", value="h - x"), ["0"], ["text"], id="before it ends"),
+        pytest.param(watched("-k*x", value="h + dot(x)^2 - x"), ["0"], ["text"], id="an event that hangs on the rate"),
+        pytest.param(watched("-k*x", value="h*t - x"), ["0"], ["text"], id="one that hangs on the time is not asked"),
+        pytest.param(watched("-m*g", value="h - x"), [], ["none"], id="no rest anywhere"),
+        pytest.param(watched("(k - 2)*m*g", value="h - x"), [""], ["everywhere-at-values"], id="numbers that balance"),
+    ],
+)
+def test_equilibria_are_where_the_scene_holds(scene: Scene, places: list[str], outcomes: list[str]) -> None:
+    """Behind a contact or an end of the motion nothing rests, and rest on a closed contact is not denied."""
+    assert [values.get("x", "") for values, _ in found(scene)] == places
+    steps = model_steps(scene)
+    told = [steps[name].about["outcome"] for name in ("equilibrium-condition", "equilibrium-search") if name in steps]
+    told += [step.about["outcome"] for name, step in steps.items() if name == "left-out:equilibria"]
+    assert told == outcomes
+
+
+def test_a_string_does_not_stand_on_its_head() -> None:
+    """l φ̇² + g cos φ > 0 is what keeps it taut."""
+    assert found(load_scene("string-pendulum")) == [({"phi": "0"}, "stable")]
+
+
+def test_a_contact_keeps_equilibria_of_a_constrained_scene_out_as_well() -> None:
+    """A pendulum in x and y hangs; upright it would be behind the ceiling at the height of its pivot."""
+    document = write_scene(load_scene("cartesian-pendulum"))
+    ceiling = {"name": "ceiling", "value": "y", **BOUNCE}
+    (hanging,) = found(read_scene(document | {"events": [ceiling]}))
+    assert (hanging[0]["y"], hanging[1]) == ("l", "stable")
+
+
 def test_numbers_where_there_is_no_closed_form() -> None:
     load = {"kind": "potential", "energy": "k*x^2/2 - F*cos(x/s)*s"}
     scene = particle(["x"], {"k": 1.0, "F": 0.5, "s": 1.0, "P": 0.7}, ["x", "0"], load, {

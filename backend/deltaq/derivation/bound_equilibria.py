@@ -22,7 +22,20 @@ from ..language.memory import cached_method
 from .calculus import column
 from .closed_form import Sought, closed_form
 from .enclosure import Budget
-from .equilibria import BITS, MOST, OPERATIONS, RANGE, Equilibrium, Search, domain, is_angle, search, start_point
+from .equilibria import (
+    BITS,
+    MOST,
+    OPERATIONS,
+    RANGE,
+    Equilibrium,
+    Search,
+    domain,
+    is_angle,
+    is_within,
+    search,
+    start_point,
+    without_contacts,
+)
 from .matrix_form import forces_at_rest, is_autonomous, mass_matrix
 from .program import number
 from .refinement import rational, refined
@@ -56,11 +69,15 @@ def bound_search(system: System) -> Search | None:
     solved = solver.solve(equations, laws.unknowns)
     placed = sorted(solved.found, key=lambda each: _place(system, each))
     known = [_recognized(system, laws, each) for each in placed]
-    found = tuple(each for each in known if each is not None and is_regular(system, each))
-    complete = solved.complete and len(found) == len(known)
+    regular = tuple(each for each in known if each is not None and is_regular(system, each))
+    found = tuple(each for each in regular if is_within(system, numbers_at(system, each)))
+    complete = solved.complete and len(regular) == len(known)
     ranges = {q: domain(system).ranges[system.q(q)] for q in system.free if system.q(q) in solved.ranged}
-    reason = "budget" if budget.left <= 0 else "continuum" if len(found) == len(known) else "singular"
-    return Search(found[:MOST], len(found), complete, ranges, "" if complete else reason)
+    reason = "budget" if budget.left <= 0 else "continuum" if len(regular) == len(known) else "singular"
+    beyond = len(regular) - len(found)
+    return without_contacts(
+        system, Search(found[:MOST], len(found), complete, ranges, "" if complete else reason, beyond)
+    )
 
 
 @dataclass(frozen=True)

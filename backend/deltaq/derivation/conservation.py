@@ -72,6 +72,12 @@ def keeps_energy(system: System) -> bool | None:
     return system.is_zero(change)
 
 
+def potential_that_decides(system: System) -> dict[str, str]:
+    """What a sentence calls h at rest: V, or the effective potential −L(q, 0), which prescribed motion adds to."""
+    name = "potential" if is_energy(system) else "effective-potential"
+    return {"potential": name, "of_potential": f"of-{name}"}
+
+
 @dataclass(frozen=True)
 class Reduction:
     """Routh's function in momenta pᵢ instead of cyclic rates: `rates` are these rates, solved for."""

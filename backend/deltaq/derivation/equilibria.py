@@ -4,6 +4,9 @@ Equations that share no unknown are solved apart, at the scene's parameter value
 by exact isolation completely, else by subdivision with interval Newton steps over a stated range. What is found is then
 recognized as a closed form where that is quick. A search says whether it is complete.
 
+Only where every event's value is not negative does the scene hold: positions behind a contact, or where a string is
+slack, are no equilibria of it. With a closed contact its reaction acts as well; such positions are not sought here.
+
 Where the mass matrix is singular the coordinates describe a position badly, and f = 0 is not enough: it is an
 equilibrium only if fᵀM⁻¹f, the square of the acceleration out of rest, vanishes towards it (at the cusp of a cycloid it
 does not).
@@ -34,6 +37,7 @@ MOST = 32  # equilibria that are looked at; more are counted
 RANGE = 10  # times the largest length that the scene names: how far coordinates are searched
 OPERATIONS = 600_000  # in ball arithmetic, of all searches of a scene: about half a second
 BITS = 512
+NOTHING = arb(2) ** -100  # of an event's value, where the equilibrium is known to more than 400 bits
 
 
 @dataclass(frozen=True)
@@ -61,8 +65,9 @@ class Search:
     """What was found, how many there are, and whether that is all.
 
     `ranges` tells between which values coordinates were searched that are not searched everywhere. `left_out` says why
-    a search is not complete: "budget", "continuum" where equilibria are not isolated and others may lie apart, or
-    "singular" where constraints depend on one another, so that their multipliers are not unique.
+    a search is not complete: "budget", "continuum" where equilibria are not isolated and others may lie apart,
+    "singular" where constraints depend on one another, so that their multipliers are not unique, or "contacts" where
+    only those were sought that touch none. `beyond` counts positions where no force acts, but the scene does not hold.
     """
 
     found: tuple[Equilibrium, ...]
@@ -70,6 +75,7 @@ class Search:
     complete: bool
     ranges: Mapping[str, tuple[float, float]]
     left_out: str = ""
+    beyond: int = 0
 
 
 @dataclass(frozen=True)
@@ -87,23 +93,56 @@ def search(system: System) -> Search | None:
         return None
     parts = list(_parts(system))
     if any(not part.unknowns for part in parts):
-        return Search((), 0, complete=True, ranges={})
+        return without_contacts(system, Search((), 0, complete=True, ranges={}))
     budget = Budget(OPERATIONS)
     solved = [_solved(system, part, budget) for part in parts]
     known = [[_recognized(system, part, each) for each in s.found] for part, s in zip(parts, solved, strict=True)]
     complete = all(s.complete for s in solved) and all(one is not None for each in known for one in each)
-    found, count = _combined(system, [[one for one in each if one is not None] for each in known])
+    found, count, beyond = _combined(system, [[one for one in each if one is not None] for each in known])
     ranged = frozenset[sp.Symbol]().union(*(s.ranged for s in solved))
     ranges = {q: domain(system).ranges[system.q(q)] for q in system.free if system.q(q) in ranged}
     reason = "" if complete else "budget" if budget.left <= 0 else "continuum"
-    return Search(found, count, complete, ranges, reason)
+    return without_contacts(system, Search(found, count, complete, ranges, reason, beyond))
 
 
-def _combined(system: System, parts: list[list[Equilibrium]]) -> tuple[tuple[Equilibrium, ...], int]:
-    """All choices of one for each part that are at rest, the first of them merged; and how many there are."""
+def without_contacts(system: System, found: Search) -> Search:
+    """The search as what it is where contacts may close: one for equilibria with all of them open."""
+    if not found.complete or not any(event.bounces for event in system.scene.events):
+        return found
+    return replace(found, complete=False, left_out="contacts")
+
+
+def _combined(system: System, parts: list[list[Equilibrium]]) -> tuple[tuple[Equilibrium, ...], int, int]:
+    """All choices of one for each part that are at rest, the first of them merged; how many, and how many beyond."""
     merged = (_merged(system, each) for each in product(*parts))
-    found = tuple(islice((each for each in merged if rests(system, each)), MOST))
-    return found, len(found) if len(found) < MOST else math.prod(map(len, parts))
+    resting = (each for each in merged if rests(system, each))
+    if not system.scene.events:
+        found = tuple(islice(resting, MOST))
+        return found, len(found) if len(found) < MOST else math.prod(map(len, parts)), 0
+    everywhere = tuple(resting)
+    held = tuple(each for each in everywhere if is_within(system, point_at(system, each)))
+    return held[:MOST], len(held), len(everywhere) - len(held)
+
+
+def is_within(system: System, point: Mapping[str, arb]) -> bool:
+    """Whether the scene holds at rest there: no event's value is negative. One that changes with time is not asked."""
+    with ctx.workprec(BITS):
+        return not any(bool(number(value, dict(point)) < -NOTHING) for value in _watched(system))
+
+
+@cached_method
+def _watched(system: System) -> tuple[sp.Expr, ...]:
+    """The values of the events at rest."""
+    at_rest = {system.rate(q): system.zero for q in system.free}
+    values = (system.guided(system.expression(event.value.tree)).xreplace(at_rest) for event in system.scene.events)
+    return tuple(value for value in values if not value.has(system.t))
+
+
+def point_at(system: System, equilibrium: Equilibrium) -> dict[str, arb]:
+    """The equilibrium in numbers; what is free there stands where the scene starts."""
+    with ctx.workprec(BITS):
+        start = start_point(system)
+        return start | {q.name: number(value, start) for q, value in equilibrium.values.items()}
 
 
 def _merged(system: System, parts: tuple[Equilibrium, ...]) -> Equilibrium:
@@ -126,12 +165,14 @@ def free_coordinates(system: System) -> tuple[str, ...]:
 
 
 def _parts(system: System) -> Iterator[_Part]:
-    """The equations grouped so that groups share no unknown; an equation without unknowns stands alone."""
+    """The equations grouped so that groups share no unknown; one without unknowns stands alone, if it does not hold."""
     groups: list[tuple[list[sp.Expr], set[str]]] = []
     for force in forces_at_rest(system):
         if system.is_zero(force):
             continue
         names = {q for q in system.free if force.has(system.q(q))}
+        if not names and system.is_zero(force.xreplace(dict(system.parameter_values))):
+            continue
         touching = [group for group in groups if group[1] & names]
         merged = [e for group in touching for e in group[0]], set().union(*(group[1] for group in touching))
         groups = [group for group in groups if group not in touching]
@@ -196,9 +237,7 @@ def _scale(system: System, coordinate: Coordinate) -> float:
 def rests(system: System, equilibrium: Equilibrium) -> bool:
     """Whether the system starts from there with no acceleration, also where M is singular."""
     with ctx.workprec(BITS):
-        point = start_point(system) | {
-            q.name: number(value, start_point(system)) for q, value in equilibrium.values.items()
-        }
+        point = point_at(system, equilibrium)
         if _inverted(system, point) is not None:
             return True
         beside = [[_acceleration(system, point, k, arb(2) ** -bits) for bits in (60, 100)] for k in range(3)]

@@ -22,7 +22,10 @@ def search_of(system: System) -> Search | None:
     if not is_sought(system):
         system.effort.left_out["equilibria"] = "rates"
         return None
-    return system.effort.afford("equilibria", lambda: searched(system), None)
+    found = system.effort.afford("equilibria", lambda: searched(system), None)
+    if found and found.beyond:
+        system.effort.left_out["equilibria"] = "ended"
+    return found
 
 
 def motions_of(system: System) -> tuple[Linearization, ...]:

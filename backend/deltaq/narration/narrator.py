@@ -24,6 +24,7 @@ from .speech import Speech, speech_of
 
 Document = dict[str, object]
 SYMMETRY = ("symmetry", "integral")  # what a generator does, and what its integral is called
+WORDS = ("reason", "potential", "of_potential")  # named by their keys in the catalog
 
 
 @dataclass(frozen=True)
@@ -158,6 +159,8 @@ class Narrator:
     def _name(self, key: str, value: str) -> CatalogText:
         if key == "rate":
             return words(value.replace(".", ",") if self.language == "de" else value)
+        if key in WORDS:
+            return joined("; ", (self._sentence(f"rules.words.{each}", {}) for each in value.split(", ") if each))
         if key != "coordinate":
             return joined(", ", map(self.notation.symbols.label, value.split(", ")))
         latex = self.notation.symbols.coordinate_latex

@@ -11,6 +11,7 @@ from collections.abc import Iterator
 import sympy as sp
 
 from ...mechanics.conditions import Condition
+from ..conservation import potential_that_decides
 from ..formula import AtEquilibrium, Explicit, Formula, Inserted, Named, Quantity, Rounded
 from ..linearization import Linearization
 from ..matrix_form import forces_at_rest
@@ -30,6 +31,7 @@ def apply(system: System, linear: Linearization, number: int) -> Step:
     places = tuple(_place(system, linear, q) for q in system.free if system.q(q) in linear.equilibrium.values)
     free = linear.equilibrium.free
     about = {"outcome": _outcome(linear, free), "number": str(number), "coordinate": ", ".join(free)}
+    about |= potential_that_decides(system)
     if linear.verdict.derivative:
         about["derivative"] = str(linear.verdict.derivative)
         about["degree"] = str(linear.verdict.derivative + 1)

@@ -8,7 +8,7 @@ ch. III.3.
 from __future__ import annotations
 
 from ..bound_equilibria import balance
-from ..equilibria import free_coordinates
+from ..equilibria import Search, free_coordinates
 from ..formula import Equation, Explicit, Substituted
 from ..friction import holds_everywhere
 from ..matrix_form import forces_at_rest, forcing
@@ -47,14 +47,26 @@ def _outcome(system: System) -> str:
     if system.conditions:
         return _outcome_with_constraints(system)
     if not (known and known.found):
-        if holds_everywhere(system):
-            return "held"
-        forces = [force for force in forces_at_rest(system) if not system.is_zero(force)]
-        constant = any(not force.has(*map(system.q, system.free)) for force in forces)
-        return "none" if constant or (known and known.complete and not known.ranges) else "not-found"
+        return "held" if holds_everywhere(system) else _outcome_of_none(system, known)
     if len(free) == len(system.free):
-        return "everywhere"
+        return "everywhere" if all(map(system.is_zero, forces_at_rest(system))) else "everywhere-at-values"
     return "free" if free else "text"
+
+
+def _outcome_of_none(system: System, known: Search | None) -> str:
+    """There is none at all, none with open contacts, none where the scene holds; or none was found."""
+    forces = [force for force in forces_at_rest(system) if not system.is_zero(force)]
+    constant = any(not force.has(*map(system.q, system.free)) for force in forces)
+    if not constant and not (known and _is_everywhere(known)):
+        return "not-found"
+    if known and known.beyond:
+        return "none-within"
+    return "none-open" if any(event.bounces for event in system.scene.events) else "none"
+
+
+def _is_everywhere(known: Search) -> bool:
+    """Whether all positions that touch no contact have been looked at."""
+    return (known.complete or known.left_out == "contacts") and not known.ranges
 
 
 def _outcome_with_constraints(system: System) -> str:

@@ -6,7 +6,9 @@ Mechanics, 2nd ed., §15.
 
 from __future__ import annotations
 
-from ..conservation import is_energy, jacobi_energy, jacobi_energy_rate, keeps_energy
+from collections.abc import Iterator
+
+from ..conservation import is_energy, jacobi_energy, jacobi_energy_rate, keeps_energy, power
 from ..formula import Explicit, Formula, Named, Partial, Plus, Quantity, Rate, Term, Times, minus
 from ..step import Relation, Step
 from ..system import System
@@ -26,7 +28,18 @@ def apply(system: System) -> Step:
         Relation((Plus((*_powers(system), *_explicit(system, lagrangian))), Explicit(jacobi_energy_rate(system)))),
         Relation((energy, whole), "=" if is_energy(system) else "≠"),
     )
-    return Step(RULE, "", lines, system.body_sources, {"outcome": _outcome(system)})
+    about = {"outcome": _outcome(system), "reason": ", ".join(_reasons(system))}
+    return Step(RULE, "", lines, system.body_sources, about)
+
+
+def _reasons(system: System) -> Iterator[str]:
+    """Why h changes: each part of its rate that is not zero."""
+    if not system.is_zero(power(system)):
+        yield "forces-work"
+    if not system.is_zero(system.slope(system.lagrangian, system.t)):
+        yield "time-enters"
+    if not system.is_zero(system.reaction_power()):
+        yield "constraints-move"
 
 
 def _outcome(system: System) -> str:

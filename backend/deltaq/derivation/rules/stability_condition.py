@@ -7,6 +7,7 @@ Source: Gantmacher, The Theory of Matrices, vol. 1, ch. X §4; Merkin, Introduct
 from __future__ import annotations
 
 from ..conditions import Conditions
+from ..conservation import potential_that_decides
 from ..linearization import Linearization
 from ..step import Step
 from ..system import System
@@ -20,6 +21,5 @@ def apply(system: System, linear: Linearization, conditions: Conditions | None, 
     found = conditions.stability if conditions else ()
     lines = tuple(inequality(system, each.smaller, each.larger) for each in found)
     outcome = linear.stability if conditions else "at-values"
-    return Step(
-        RULE, str(number), lines, (), {"outcome": outcome, "number": str(number)}, premises=(f"equilibrium:{number}",)
-    )
+    about = {"outcome": outcome, "number": str(number), **potential_that_decides(system)}
+    return Step(RULE, str(number), lines, (), about, premises=(f"equilibrium:{number}",))
