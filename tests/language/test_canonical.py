@@ -137,6 +137,23 @@ def test_a_normal_form_says_where_others_may_be_of_the_same_value(text: str, exa
     assert reader.is_exact is exact
 
 
+@pytest.mark.parametrize(
+    "text",
+    [
+        "(8*x^2 + 8)^(1/3)",
+        "(4*x^2 + 4)^(2/3)",
+        "(16*l^4*x^2 + 32*l^4)^(1/4)",
+        "(18*l^3*x^2 + 18*l^3)^(-3/4)",
+        "(12*m*x^2 + 24*m)^(3/2)",
+    ],
+)
+def test_what_leaves_a_root_of_any_degree_leaves_its_value(text: str) -> None:
+    given = read(text)
+    point = {symbol: sympy.Rational(7, 5) for symbol in given.free_symbols}
+    shown = display(given, SYMBOLS)
+    assert abs(sympy.N((given - shown).subs(point), 20)) < 1e-15
+
+
 def test_undecided_outside_the_domain() -> None:
     decision = zero_test(read("sqrt(-1 - x^2) - sqrt(-1 - x^2 - y^2/1000)"), SYMBOLS)
     assert decision == Decision(outcome=None, how="none")

@@ -361,6 +361,7 @@ REFUSED = [
     ("Phi", "unknown-name", 0, 3, {"name": "Phi", "known": KNOWN, "suggestion": "phi, pi"}),
     ("mdot", "unknown-name", 0, 4, {"name": "mdot", "known": KNOWN, "suggestion": "dot, ddot"}),
     ("xp", "unknown-name", 0, 2, {"name": "xp", "known": KNOWN, "suggestion": "x"}),
+    ("mln(x)", "unknown-name", 0, 3, {"name": "mln", "known": KNOWN, "suggestion": "ln, min"}),
     ("sinus(phi)", "unknown-name", 0, 5, {"name": "sinus", "known": KNOWN, "suggestion": "sin, signum, sinh"}),
     ("omga", "unknown-name", 0, 4, {"name": "omga", "known": KNOWN, "suggestion": "omega"}),
     ("z", "unknown-name", 0, 1, {"name": "z", "known": KNOWN}),

@@ -32,7 +32,7 @@ def is_silent(found: Trajectory, truth: float) -> bool:
     """Whether the last value is wrong by more than it is said to be, and nothing else is said."""
     assert found.estimate is not None
     error = abs(found.values[-1, 0] - truth)
-    return found.outcome.is_ok and error > 1.5 * found.estimate.errors[-1] + 1e-13
+    return found.outcome.status == "ok" and error > 1.5 * found.estimate.errors[-1] + 1e-13
 
 
 def test_a_drive_in_step_with_the_samples_is_seen() -> None:
@@ -70,7 +70,7 @@ def test_a_pulse_is_not_stepped_over(method: str) -> None:
         pulse = "F*exp(-((t - t0)/w)^2)"
         problem = problem_of(driven(pulse, F=1.0 / (width * math.sqrt(math.pi)), t0=t0, w=width), 10.0)
         found = simulate(problem, get_method(method), tolerance=1e-4)
-        assert found.outcome.is_ok
+        assert found.outcome.status == "ok"
         off = abs(found.values[-1, 0] - (10.0 - t0))
         assert off <= found.estimate.errors[-1]
         assert off <= 1e-4 * max(1.0, 10.0 - t0)
@@ -82,7 +82,7 @@ def test_forces_may_jump_at_known_times(method: str) -> None:
     t1, length = 3.0, 1e-3
     problem = problem_of(driven("F*(sign(t - t1) - sign(t - t2))/2", F=1.0, t1=t1, t2=t1 + length), 10.0)
     found = simulate(problem, get_method(method), tolerance=1e-6)
-    assert found.outcome.is_ok
+    assert found.outcome.status == "ok"
     assert found.values[-1, 0] == pytest.approx(length * (10.0 - t1) - length**2 / 2.0, abs=1e-6)
 
 
@@ -105,7 +105,7 @@ def test_a_narrow_wall_on_the_way_is_seen() -> None:
         problem = problem_of(driven(hill, h=0.6, x0=x0, w=width), 10.0)
         problem = replace(problem, rates=(1.0,))
         found = simulate(problem, get_method(method), tolerance=1e-6)
-        assert not found.outcome.is_ok or found.values.max() < x0  # too high a hill turns it back
+        assert found.outcome.status != "ok" or found.values.max() < x0  # too high a hill turns it back
 
 
 def test_a_free_mass_under_a_fast_drive_is_no_alarm() -> None:

@@ -197,6 +197,14 @@ def test_a_diverging_run_gives_its_good_part() -> None:
     assert answer["t_reached"] < 10.0
 
 
+def test_angles_are_known_by_their_unit() -> None:
+    """Of an angle no more than a radian counts as its size, however often it has wound around."""
+    known = {
+        name: problem_of(load_scene(name), 1.0).angular for name in ("elastic-pendulum", "double-pendulum", "atwood")
+    }
+    assert known == {"elastic-pendulum": (False, True), "double-pendulum": (True, True), "atwood": (False,)}
+
+
 @pytest.mark.parametrize(("x", "times", "reached"), [(-1.1, [0.0, 0.5, 1.0], 1.0), (0.1, [], 0.0)])
 def test_a_position_without_value_ends_the_answer(x: float, times: list[float], reached: float) -> None:
     """The motion is harmless, but a point of the drawing leaves the real numbers."""

@@ -36,10 +36,6 @@ class Outcome:
     code: str
     parameters: Mapping[str, Number] = field(default_factory=dict)
 
-    @property
-    def is_ok(self) -> bool:
-        return self.status == "ok"
-
 
 OK = Outcome("ok", "ok")
 
