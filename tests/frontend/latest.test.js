@@ -1,6 +1,6 @@
 import { strict as assert } from "node:assert";
 import { test } from "node:test";
-import { latestOnly } from "../../frontend/model/latest.js";
+import { latestOnly, newest } from "../../frontend/model/latest.js";
 
 /** A clock that waits by moving itself on. */
 function steppedTime() {
@@ -97,4 +97,10 @@ test("cancelling aborts what runs and forgets what waits", async () => {
   queue.ask(3);
   await settled();
   assert.equal(begun.at(-1)?.[1].aborted, false);
+});
+
+test("of signals the last one stands: each new one aborts the one before", () => {
+  const next = newest();
+  const signals = [next(), next(), next()];
+  assert.deepEqual(signals.map(({ aborted }) => aborted), [true, true, false]);
 });

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from deltaq.simulation.rounding import rounded, short, significant
+from deltaq.simulation.rounding import rounded, rounded_to_bits, short, significant
 
 
 @pytest.mark.parametrize(
@@ -27,6 +27,23 @@ def test_value(value: float, error: float, expected: float) -> None:
     found = rounded(np.array([value]), np.array([error]))
     assert found.tolist() == [expected]
     assert not np.signbit(found[0]) or expected < 0
+
+
+@pytest.mark.parametrize(
+    ("value", "error", "expected"),
+    [
+        pytest.param(1 / 3, 2.0**-10, 43691 * 2.0**-17, id="a unit of 2⁻⁷ of the error"),
+        pytest.param(1 / 3, 1.99 * 2.0**-10, 43691 * 2.0**-17, id="the same up to twice the error"),
+        pytest.param(123456.789, 2.0**20, 15 * 2.0**13, id="coarser than one"),
+        pytest.param(1 / 3, 0.0, 1 / 3, id="no error: all bits"),
+        pytest.param(1e-6 / 3, 1e-22, 1e-6 / 3, id="small: as many as behind the zeros"),
+        pytest.param(-1e-9, 1e-3, 0.0, id="no negative zero"),
+    ],
+)
+def test_value_by_bits(value: float, error: float, expected: float) -> None:
+    found = rounded_to_bits(np.array([[value, -value]]), np.array([error]))
+    assert found.tolist() == [[expected, -expected]]
+    assert not np.signbit(found[found == 0.0]).any()
 
 
 @pytest.mark.parametrize("error", [0.0, 1e-12, 1.0])

@@ -114,21 +114,20 @@ def _event(request: Request, trajectory: Trajectory) -> Document | None:
     if found is None:
         return None
     event = request.scene.events[found.index]
-    time, doubt = np.array([found.time]), np.array([found.error or UNKNOWN_ERROR])
-    error = None if found.error is None else short(found.error)
-    return {"name": event.name, "title": plainly(event.title), "t": float(rounded(time, doubt)[0]), "error": error}
+    time, error = _time(found.time, found.error)
+    return {"name": event.name, "title": plainly(event.title), "t": time, "error": error}
 
 
 def _transition(found: Transition) -> Document:
     """An event behind which the motion went on; its time is rounded to what its error supports."""
-    time, doubt = np.array([found.time]), np.array([found.error or UNKNOWN_ERROR])
-    return {
-        "name": found.name,
-        "time": float(rounded(time, doubt)[0]),
-        "kind": found.kind,
-        "loss": short(found.loss, 6),
-        "error": None if found.error is None else short(found.error),
-    }
+    time, error = _time(found.time, found.error)
+    return {"name": found.name, "time": time, "kind": found.kind, "loss": short(found.loss, 6), "error": error}
+
+
+def _time(time: float, error: float | None) -> tuple[float, float | None]:
+    """A time rounded to what its error supports, and the error."""
+    told = rounded(np.array([time]), np.array([error or UNKNOWN_ERROR])).item()
+    return told, None if error is None else short(error)
 
 
 def _energy(request: Request, problem: Problem, trajectory: Trajectory, seen: Observation, errors: Floats) -> Document:
