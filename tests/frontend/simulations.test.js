@@ -14,6 +14,7 @@ for (const [name, patch, expected] of /** @type {[string, any, any][]} */ ([
   ["by a method that nobody knows", { place: { method: "magic" } }, { scene: "swing", initial: {}, parameters: {}, t_end: 10, samples: 242, include: PARTS, lang: "en" }],
   ["with more samples than the server has", { place: { method: "rk4", duration: 1000 } }, { scene: "swing", initial: {}, parameters: {}, t_end: 1000, samples: 20001, include: PARTS, lang: "en", method: "rk4", step: 0.01 }],
   ["with other values and members", { place: { n: 4 }, changes: { initial: { y: { value: 1, rate: 2 } }, parameters: { m: 3 } } }, { scene: "swing", initial: { y: { value: 1, rate: 2 } }, parameters: { m: 3, n: 4 }, t_end: 10, samples: 242, include: PARTS, lang: "en" }],
+  ["with what is let go in thought", { place: { release: "l,y" } }, { scene: "swing", initial: {}, parameters: {}, t_end: 10, samples: 242, include: PARTS, lang: "en", release: ["l", "y"] }],
   ["of one's own scene", { place: { scene: "own" } }, { scene: own, initial: {}, parameters: {}, t_end: 10, samples: 242, include: PARTS, lang: "en" }],
 ])) {
   test(`the motion is asked for ${name}`, async () => {
