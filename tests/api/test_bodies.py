@@ -75,6 +75,28 @@ def test_what_ends_early_is_said_to_end_there(cut: int) -> None:
     assert [(one.code, one.offset) for one in caught.value.problems] == [("json-syntax", len(body))]
 
 
+@pytest.mark.parametrize(
+    ("body", "pointers"),
+    [
+        pytest.param(b'{"scene":"pendulum","scene":"atwood"}', ["/scene"], id="at the top"),
+        pytest.param(b'{"a":[{"b":1,"c":2,"b":1}],"c":0}', ["/a/0/b"], id="within, of one value"),
+        pytest.param(b'{"a":1,"a":2,"x/y":{"d":1,"d":2}}', ["/a", "/x~1y/d"], id="two of them"),
+        pytest.param(rb'{"a":1,"\u0061":2}', ["/a"], id="written in two ways"),
+        pytest.param(b'{"a":{"b":1},"a":{"b":{"c":1,"c":2}}}', ["/a"], id="one in the other"),
+        pytest.param(b'{"a":":","b":{"c":"{:,:}"},"c":[":"]}', [], id="colons in texts"),
+        pytest.param(rb'{"a\":1,\"a\\":1,"a":{"a":{"a":1}}}', [], id="escapes, and a name at each depth"),
+    ],
+)
+def test_a_name_that_comes_twice_is_told(body: bytes, pointers: list[str]) -> None:
+    """RFC 8259, §4: of such names receivers keep one or the other, so that what was sent would be lost in silence."""
+    if not pointers:
+        assert loads(body) == json.loads(body)
+        return
+    with pytest.raises(RequestError) as caught:
+        loads(body)
+    assert [(one.code, one.pointer) for one in caught.value.problems] == [("json-repeated-name", at) for at in pointers]
+
+
 def nested(depth: int) -> bytes:
     """A number below so many lists, by turns with tables."""
     pairs = [(b"[", b"]"), (b'{"a":', b"}")]
