@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
+from tests.simulation.scenes import document
 
 from deltaq.errors import SceneError
 from deltaq.mechanics.changes import change
@@ -304,6 +305,18 @@ def test_a_contact_without_a_direction_is_refused() -> None:
         run(asked)
     assert [(each.code, each.pointer) for each in caught.value.problems] == [
         ("contact-without-direction", "/scene/events/0/value")
+    ]
+
+
+def test_impacts_at_the_start_that_do_not_end_are_refused() -> None:
+    """A ball that moves, between two walls that both touch it and give all speed back."""
+    bounces = {"then": "bounce", "restitution": "1"}
+    events = [{"name": "left", "value": "x", **bounces}, {"name": "right", "value": "-x", **bounces}]
+    scene = document({"x": (0.0, 1.0)}, {"m": 1.0}, {"ball": ("m", ["x", "0"])}) | {"events": events}
+    with pytest.raises(SceneError) as caught:
+        run({"scene": scene, "t_end": 1})
+    assert [(each.code, each.pointer, each.parameters["name"]) for each in caught.value.problems] == [
+        ("contacts-at-start", "/scene/events/0/value", "left")
     ]
 
 
