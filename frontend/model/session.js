@@ -100,17 +100,18 @@ export function createSession(store, api, clock) {
     async tellMore(more) {
       move({ more });
       await derive();
-      move({
-        step: get().derivation?.chapters.find(({ id }) => id === more)?.steps[0]?.id ?? get().place.step,
-      });
+      const first = get().derivation?.chapters.find(({ id }) => id === more)?.steps[0];
+      if (first) move({ step: first.id });
     },
     /** Lets go in thought of what the scene holds, and opens the chapter on what holds it. @param {string} release its name, or "" */
     async release(release) {
       move({ release });
       simulations.ask();
       await derive();
-      const chapter = get().derivation?.chapters.find(({ id }) => id === "reactions");
-      if (chapter?.steps[0]) move({ step: chapter.steps.at(-1)?.id ?? "" });
+      const last = get()
+        .derivation?.chapters.find(({ id }) => id === "reactions")
+        ?.steps.at(-1);
+      if (last) move({ step: last.id });
     },
     /** @param {Partial<Place>} patch */
     move(patch) {

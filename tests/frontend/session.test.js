@@ -206,17 +206,46 @@ test("a motion beside the present one has values and a method of its own, is ref
 for (const [there, asked] of /** @type {[any, string[]][]} */ ([
   [{ step: "b" }, []],
   [{ set: "m:2" }, ["simulate"]],
+  [{ release: "l" }, ["derive", "simulate"]],
+  [{ more: "canonical" }, ["derive"]],
+  [{ duration: 20 }, ["simulate"]],
   [{ method: "rk4", duration: 20 }, ["simulate"]],
   [{ formulation: "hamilton" }, ["derive"]],
   [{ scene: "top", step: "x", set: "C:3" }, ["derive", "scene", "simulate"]],
   [{ n: 4 }, ["derive", "scene", "simulate"]],
 ])) {
   test(`going back to ${JSON.stringify(there)} asks for ${asked.join() || "nothing"}`, async () => {
-    const { session, get, asked: questions, pass } = page({ lines, catalog: /** @type {any} */ ({ page: {} }), overlay: "overview", place: at({ step: "a" }) });
+    const held = { key: "m", asked: 9 };
+    const { session, get, asked: questions, pass } = page({ lines, held, catalog: /** @type {any} */ ({ page: {} }), overlay: "overview", place: at({ step: "a" }) });
     void session.restore(at({ step: "a", ...there }));
     await pass(1000);
     assert.deepEqual(questions().sort(), asked);
     assert.deepEqual([get().place, get().overlay], [at({ step: "a", ...there }), ""]);
     assert.deepEqual(get().changes.parameters, there.set ? { [there.set[0]]: Number(there.set.slice(2)) } : {});
+    assert.deepEqual(get().held, there.set || there.n ? null : held);
+  });
+}
+
+/** A derivation with a second chapter. @param {string} id @param {string[]} steps */
+const withChapter = (id, ...steps) => ({ chapters: [...derivation("a").chapters, { ...derivation(...steps).chapters[0], id }] });
+
+for (const [what, answer, told, released] of /** @type {[string, any, string, string][]} */ ([
+  ["its steps", (/** @type {string} */ id) => withChapter(id, "c", "d", "e"), "c", "e"],
+  ["no steps", (/** @type {string} */ id) => withChapter(id), "a", "a"],
+  ["another's steps", () => withChapter("model", "c"), "a", "a"],
+  ["an error", null, "a", "a"],
+])) {
+  test(`a chapter that was asked for and comes with ${what} is opened where there is something to read`, async () => {
+    for (const [ask, id, step] of /** @type {[(session: any) => Promise<void>, string, string][]} */ ([
+      [(session) => session.tellMore("canonical"), "canonical", told],
+      [(session) => session.release("l"), "reactions", released],
+    ])) {
+      const { session, get, last } = page({ place: at({ step: "a" }) });
+      const done = ask(session);
+      assert.deepEqual([get().place.more, get().place.release], id === "reactions" ? ["", "l"] : ["canonical", ""]);
+      await (answer ? last("derive").answer(answer(id)) : last("derive").refuse());
+      await done;
+      assert.equal(get().place.step, step);
+    }
   });
 }
