@@ -21,6 +21,7 @@ ROWS = [
     pytest.param("m*x/13 + m*y/13", "m*(y/13 + x/13)", id="no large denominator in front"),
     pytest.param("m*g*x - k*g*x", "(m - k)*g*x", id="equal coefficients"),
     pytest.param("m*g*x/2 + k*g*x + m1*g*x/2", "(m/2 + m1/2 + k)*g*x", id="coefficients of unequal size"),
+    pytest.param("m*g*x/2 + k*g*x/3", "(m/2 + k/3)*g*x", id="coefficients of unequal size that are all fractions"),
     pytest.param("m*g*x/2 - k*g*x/2", "(m - k)*g*x/2", id="coefficients of equal size"),
     pytest.param("m*ddot(x)*dot(x) + m*ddot(y)*dot(y)", "m*dot(y)*ddot(y) + m*dot(x)*ddot(x)", id="nor of powers"),
     pytest.param("m*dot(x)^2/2 + m1*dot(x)^2/2", "(m + m1)*dot(x)^2/2", id="equal rates"),

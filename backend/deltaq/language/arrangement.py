@@ -86,7 +86,7 @@ class Arrangement:
         common = _common([mono for mono, _ in terms])
         rest = fourier.raised(common, -1)
         numbers = [number for _, number in terms]
-        shared = numbers[0] if len(terms) > 1 and all(abs(n) == abs(numbers[0]) for n in numbers) else 1
+        shared = numbers[0] if all(abs(n) == abs(numbers[0]) for n in numbers) else 1
         summed = sympy.Add(
             *(rational(number / shared) * self._reader.monomial(fourier.times(mono, rest)) for mono, number in terms)
         )

@@ -108,8 +108,6 @@ def _slope(reader: Reader, name: str, by: str) -> Form:
     if name in reader.bases:
         return derivative(reader, reader.bases[name], by)
     meaning = reader.meaning[name]
-    if meaning.is_Symbol or meaning.is_number:
-        return {}
     symbol = next((symbol for symbol in meaning.free_symbols if symbol.name == by), None)
     return reader.form(diff(meaning, symbol)) if symbol is not None else {}
 
