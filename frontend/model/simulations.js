@@ -36,7 +36,7 @@ export function createSimulations({ get, set }, api, clock, attempt) {
     const done = attempt(async () => {
       const { trajectory, again } = judged(await api.simulate(request, signal), request, round);
       if (signal.aborted) return;
-      set({ trajectory, simulating: again !== null, ...shownWith(request) });
+      set({ trajectory, ...shownWith(request) });
       clock.setEnd(endOf(trajectory));
       if (again) latest.offer({ request: again, round: round + 1 });
       else dense = { of: keyOf(request), rate: (request.samples - 1) / request.t_end };
