@@ -106,8 +106,9 @@ export function createMotion({ root, state, clock, session, send, still, update 
     show(theme) {
       const { scene, trajectory, runs, place, lines, failures } = state();
       parts ??= assemble();
-      parts.drawing.show(scene, trajectory, clock.time);
+      // The drawing keeps clear of them.
       parts.readouts.show(scene, trajectory, place.lang);
+      parts.drawing.show(scene, trajectory, clock.time);
       // The first step is to be read before the plots cost anything.
       const readable = lines.length > 0 || failures.derivation;
       parts.plots.show(

@@ -153,8 +153,8 @@ function ofDrawing(scene, drawn, dense) {
   });
 }
 
-/** The pane of the drawing on a laptop, and moments of the motion in a second that are looked at. */
-const PANE = { width: 560, height: 330 };
+/** The panes of the drawing on a laptop, beside its plots and on a slide, and moments of the motion in a second that are looked at. */
+const PANES = { page: [{ width: 560, height: 330 }, 16], slide: [{ width: 445, height: 690 }, 19.8] };
 const LOOKS = 12;
 /** Letters count as shown from this opacity on. */
 const SEEN = 0.3;
@@ -182,9 +182,13 @@ function forbidden({ d, at, className }) {
   return [[x - left, y + top, x + left, y - top]];
 }
 
+/** The read-outs of all coordinates, one below the other in a corner. @param {any} scene @param {number} rem */
+const readouts = (scene, rem) =>
+  scene.coordinates.map((_, i) => [rem, (0.75 + 1.25 * i) * rem, 8 * rem, (2 + 1.25 * i) * rem]);
+
 /** The box of a letter as it is seen. @param {{latex: string, at: [number, number]}} label @returns {[string, number[]]} */
-function seenBox({ latex, at: [x, y] }) {
-  const letter = 0.95 * 16 * 1.21;
+function seenBox({ latex, at: [x, y] }, rem = 16) {
+  const letter = 0.95 * rem * 1.21;
   const [above, below] = /\\frac\{(.*?)\}\{(.*)/.exec(latex)?.slice(1) ?? [latex, ""];
   const letters = (text) => text.replace(/\\mathbf|\\[,!]|[{}_]/g, "").replace(/\\[a-z]+/g, "x").replace(/\s/g, "").length;
   const half = (0.9 * letter * Math.max(letters(above), letters(below)) * 0.5) / 2;
@@ -193,8 +197,8 @@ function seenBox({ latex, at: [x, y] }) {
 }
 
 /** Counts which of the letters that come last cover which others or what they may not, and which find no place. */
-function counted(count, letters, others, forbiddenBoxes) {
-  const shown = letters.filter(({ opacity = 1 }) => opacity > SEEN).map(seenBox);
+function counted(count, letters, others, forbiddenBoxes, rem) {
+  const shown = letters.filter(({ opacity = 1 }) => opacity > SEEN).map((label) => seenBox(label, rem));
   shown.forEach(([latex, box], i) => {
     const covered = [...shown.slice(i + 1), ...others].filter(([, other]) => meet(box, other)).map(([other]) => other);
     for (const other of forbiddenBoxes) if (meet(box, other)) covered.push("a head or body");
@@ -209,8 +213,9 @@ function counted(count, letters, others, forbiddenBoxes) {
 }
 
 /** Which letters cover what, and how many there are and are not shown: while the motion runs, and of δr with its parts. */
-function ofLetters(scene, drawn, result) {
-  const stage = stageOf(withDrawing(scene, drawn), drawn, PANE);
+function ofLetters(scene, drawn, result, [pane, rem]) {
+  const numbers = readouts(scene, rem);
+  const stage = stageOf(withDrawing(scene, drawn), drawn, pane, { rem, reserved: numbers });
   const [own, varied] = [0, 1].map(() => ({ covers: {}, shown: 0, hidden: 0, without: {} }));
   const kinematics = kinematicsOf(scene, result, {});
   const bodies = scene.bodies.map(({ name }) => name);
@@ -219,10 +224,10 @@ function ofLetters(scene, drawn, result) {
     const now = snapshotAt(drawn, t);
     const { labels, shapes, ground } = placed(stage, figureOf(stage, now), t);
     const heads = shapes.flatMap(forbidden);
-    const shown = counted(own, labels, [], heads);
+    const shown = counted(own, labels, numbers.map((box) => ["a number", box]), heads, rem);
     const { over } = virtualFigure(stage, virtualOf(kinematics, now, bodies, delta));
     const above = placed(stage, over, t, ground);
-    counted(varied, above.labels, shown, [...heads, ...above.shapes.flatMap(forbidden)]);
+    counted(varied, above.labels, shown, [...heads, ...above.shapes.flatMap(forbidden)], rem);
   }
   return { own, varied };
 }
@@ -246,7 +251,7 @@ async function measure({ scene, derivation, changes = {}, method = "" }) {
   const intervals = Math.round(request.t_end / (drawn.t[1] - drawn.t[0]));
   const dense = await simulate({ ...request, samples: Math.min(FINER * intervals, 20000) + 1 });
   const found = [ofPlots, ofPhase, ofDrawing, ofHandout].flatMap((of) => of(scene, drawn, dense));
-  tell({ worst: Object.fromEntries(found), samples: drawn.t.length, coarse: drawn.coarse, end: endsOf(scene, drawn), degrees: degreesOf(scene), ...(derivation && { letters: ofLetters(scene, drawn, derivation.result), symbols: coverage(scene, drawn, derivation) }) });
+  tell({ worst: Object.fromEntries(found), samples: drawn.t.length, coarse: drawn.coarse, end: endsOf(scene, drawn), degrees: degreesOf(scene), ...(derivation && { letters: Object.values(PANES).flatMap((pane) => Object.values(ofLetters(scene, drawn, derivation.result, pane))), symbols: coverage(scene, drawn, derivation) }) });
 }
 
 for (let asked = await read(); asked; asked = await read()) await measure(asked);

@@ -69,7 +69,7 @@ def test_curves_portraits_paths_and_handout(drawing: Drawing, scene: str) -> Non
     assert not found["coarse"]
     assert found["degrees"] == load_scene(scene).degrees_of_freedom
     # No letter on another, on the head of an arrow or on a body; and nearly all are there, those of δr's parts, too.
-    for letters in found["letters"].values():
+    for letters in found["letters"]:
         assert letters["covers"] == {}
         assert letters["hidden"] <= LEFT_OUT * letters["shown"], letters["without"]
     assert found["symbols"]["refused"] == []

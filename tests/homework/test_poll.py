@@ -48,6 +48,20 @@ def test_a_step_that_tells_of_every_coordinate_asks_for_all_of_them() -> None:
         assert bool(choice["title"] and choice["hint"]) != choice["right"]
 
 
+def test_an_impact_asks_for_the_energy_that_it_takes() -> None:
+    """It ends with E⁻ − E⁺, which is said of each choice; the wrong ones forget something that has a name."""
+    asked = {"scene": "bouncing-ball", "step": "impact-law:impact", "lang": "en"}
+    choices = poll_request(asked)["choices"]
+    assert 2 <= len(choices) <= 4
+    assert all(choice["latex"].startswith("E^{-} - E^{+} ={}") for choice in choices)
+    for choice in choices:
+        answer = {"syntax": "latex", "value": choice["latex"].split("={}")[1]}
+        task = {"scene": "bouncing-ball", "task": "impact-loss:impact", "answer": answer}
+        assert check_request(task)["outcome"] == ("correct" if choice["right"] else "wrong"), choice
+    names = {choice["title"] for choice in choices if not choice["right"]}
+    assert len(names) == len(choices) - 1
+
+
 @pytest.mark.parametrize("step", ["curl-test:weight", "symmetry-search", "no-such-step"])
 def test_where_nothing_single_is_asked_there_is_no_poll(step: str) -> None:
     assert poll_request({"scene": "elastic-pendulum", "step": step})["choices"] == []

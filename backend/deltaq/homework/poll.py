@@ -21,6 +21,7 @@ MOST = 4  # choices
 ROWS = 9  # of all choices together: more are not on one screen
 LONGEST = 260  # letters of a formula that is still compared with others at a glance
 SINGLE_BODY = "kinetic-energy-of-"  # of the only body: the kinetic energy of the system
+ENDING = ("impact-loss",)  # what a step ends with that answers unlike things
 EACH = ("generalized-force", "linearized")  # what one step tells of every coordinate
 ROW = r",\quad "
 BREAK = r" \\ "
@@ -31,11 +32,12 @@ def poll(workbook: Workbook, step: str, language: str) -> list[Document]:
     tasks = _tasks_of(workbook, step)
     if not tasks or any(task.quantity.judge is not None for task in tasks):
         return []
-    right = _formula(workbook, {task: workbook.shown(task) for task in tasks}, language)
+    named = _is_part(workbook, step, tasks)
+    right = _formula(workbook, {task: workbook.shown(task) for task in tasks}, language, named=named)
     choices = {right: {"latex": right, "right": True, "title": "", "hint": ""}}
     kinds = set[str]()
     for solution, answers in _wrong(workbook, tasks):
-        formula = _formula(workbook, answers, language)
+        formula = _formula(workbook, answers, language, named=named)
         if len(choices) < min(MOST, ROWS // len(tasks)) and solution.id not in kinds and formula not in choices:
             kinds.add(solution.id)
             choices[formula] = {"latex": formula, "right": False, **_told(solution, workbook, language)}
@@ -45,13 +47,25 @@ def poll(workbook: Workbook, step: str, language: str) -> list[Document]:
 
 
 def _tasks_of(workbook: Workbook, step: str) -> tuple[Task, ...]:
-    """What a step answers: one thing, or the same of every coordinate; none where it answers unlike things."""
-    single = len(workbook.scene.bodies) == 1 and step.startswith(SINGLE_BODY)
-    wanted = "kinetic-energy" if single else step
-    answered = tuple(task for task in workbook.tasks if wanted in steps_of(task, workbook))
+    """What a step answers: one thing, the same of every coordinate, or of unlike things the one that it ends with."""
+    wanted, answered = _answered(workbook, step)
     same = tuple(task for task in answered if task.id == wanted)
     alike = {task.quantity.kind for task in answered}
-    return same[:1] or (answered if len(answered) == 1 or (len(alike) == 1 and alike <= set(EACH)) else ())
+    ending = tuple(task for task in answered if task.quantity.kind in ENDING)
+    every = answered if len(answered) == 1 or (len(alike) == 1 and alike <= set(EACH)) else ()
+    return same[:1] or every or ending[:1]
+
+
+def _answered(workbook: Workbook, step: str) -> tuple[str, tuple[Task, ...]]:
+    single = len(workbook.scene.bodies) == 1 and step.startswith(SINGLE_BODY)
+    wanted = "kinetic-energy" if single else step
+    return wanted, tuple(task for task in workbook.tasks if wanted in steps_of(task, workbook))
+
+
+def _is_part(workbook: Workbook, step: str, tasks: tuple[Task, ...]) -> bool:
+    """Whether a step answers other things, too: then choices say what they are of."""
+    wanted, answered = _answered(workbook, step)
+    return len(tasks) == 1 < len(answered) and tasks[0].id != wanted
 
 
 def _wrong(workbook: Workbook, tasks: tuple[Task, ...]) -> Iterator[tuple[FaultySolution, Mapping[Task, Parts]]]:
@@ -61,9 +75,11 @@ def _wrong(workbook: Workbook, tasks: tuple[Task, ...]) -> Iterator[tuple[Faulty
         yield solution, {task: found[task].get(solution) or workbook.shown(task) for task in tasks}
 
 
-def _formula(workbook: Workbook, answers: Mapping[Task, Parts], language: str) -> str:
+def _formula(workbook: Workbook, answers: Mapping[Task, Parts], language: str, *, named: bool) -> str:
     if len(answers) == 1:
-        return _of_one(workbook, *next(iter(answers.items())))
+        ((task, parts),) = answers.items()
+        left = _left(workbook, task, language) if named else ""
+        return left + _of_one(workbook, task, parts)
     rows = [f"{_left(workbook, task, language)}&{_of_one(workbook, task, parts)}" for task, parts in answers.items()]
     return rf"\begin{{aligned}}{BREAK.join(rows)}\end{{aligned}}"
 

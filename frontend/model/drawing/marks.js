@@ -29,7 +29,7 @@ import { coordinateClass, latexOf, marked, placeOf, sizeOf } from "./stage.js";
 
 /** The largest force of a load is drawn this many units long. */
 const LONGEST = 5.5;
-/** Between rod and vertical there is no room for a letter below this angle; it fades in up to twice of it. */
+/** Between rod and vertical there is no room for a letter below this angle. */
 const NARROW = 0.18;
 /** A head that has a line about it is drawn smaller by this. */
 const LINED = 0.8;
@@ -245,7 +245,7 @@ export function angle(element, stage, now, key) {
         latex: latexOf(stage.scene, element.coordinate),
         ...aboutArc((part, out) => add(centre, scaled(fromDown(zero + part * turn), radius + out * stage.unit))),
         className,
-        opacity: Math.min(1, Math.max(0, (Math.abs(turn) - NARROW) / NARROW)),
+        opacity: Number(Math.abs(turn) > NARROW),
       },
     ],
   };

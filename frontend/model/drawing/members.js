@@ -58,6 +58,8 @@ function hanging(from, to, length, down) {
 /** @param {Pixel[]} points @returns {[Pixel, Pixel][]} */
 const chordsOf = (points) => points.slice(1).map((point, i) => [points[i], point]);
 
+/** The unit of a stiffness. */
+const STIFFNESS = "N/m";
 /** Where along an element its letter stands: not in the middle, where that of its angle is. */
 const ALONG = 0.7;
 
@@ -108,7 +110,7 @@ export function spring(element, stage, now, key) {
         key,
         d: coil(...ends, stage.unit * 0.72, coils),
         className: marked(`ink spring ${load}`, element),
-        strips: [ends],
+        strips: sidesOf(ends, stage.unit * 0.72),
       },
     ],
     labels: named(stiffnessOf(element, stage), stage, ends, key, 1.7 * stage.unit).map((label) => ({
@@ -118,10 +120,20 @@ export function spring(element, stage, now, key) {
   };
 }
 
-/** The name of a spring's constant, where it is one. @param {Element} element @param {Stage} stage */
+/** What something is drawn along, and its two sides. @param {[Pixel, Pixel]} ends @param {number} wide @returns {import("../types.js").Strip[]} */
+function sidesOf([from, to], wide) {
+  const across = scaled(normal(unit(subtract(to, from))), wide);
+  return [-1, 0, 1].map((side) => [add(from, scaled(across, side)), add(to, scaled(across, side))]);
+}
+
+/** The name of a spring's constant, where it is one; in a potential the one that is a stiffness by its unit. @param {Element} element @param {Stage} stage */
 function stiffnessOf({ load }, { scene }) {
-  const { stiffness = "" } = scene.loads.find(({ name }) => name === load) ?? {};
-  return scene.parameters.find(({ name }) => name === stiffness)?.name;
+  const { stiffness = "", energy = "" } = scene.loads.find(({ name }) => name === load) ?? {};
+  const names = new Set(String(energy).match(/[A-Za-z_]\w*/g) ?? []);
+  const found = scene.parameters.filter(
+    ({ name, unit }) => name === stiffness || (names.has(name) && unit === STIFFNESS),
+  );
+  return found.length === 1 ? found[0].name : undefined;
 }
 
 /**
@@ -165,7 +177,7 @@ export function damper(element, stage, now, key) {
         key,
         d: line(to, piston) + line(add(piston, narrow), subtract(piston, narrow)),
         className: `${className} thick`,
-        strips: [[from, to]],
+        strips: sidesOf([from, to], stage.unit * 0.7),
       },
     ],
     labels: [],
@@ -196,7 +208,10 @@ export function massOf(name, stage, place, across, along = across) {
   if (!mass) return [];
   const [first, ...others] = SIDES_OF_BODY.map((eighth) => {
     const turn = (eighth * Math.PI) / 4;
-    return add(place, [(across + 1.1 * stage.unit) * Math.cos(turn), (along + 1.1 * stage.unit) * Math.sin(turn)]);
+    const round = across === along ? Math.SQRT1_2 : 1; // a ball has no corners
+    const part = eighth % 2 ? round : 1;
+    const [x, y] = [Math.sign(Math.round(Math.cos(turn))), Math.sign(Math.round(Math.sin(turn)))];
+    return add(place, [x * part * (across + 1.1 * stage.unit), y * part * (along + 1.1 * stage.unit)]);
   });
   const latex = latexOf(stage.scene, mass.name);
   return [

@@ -1,6 +1,7 @@
 /**
  * Where the letters of a drawing stand: each at the first of its places that is free, and there as long as it stays so.
  *
+ * A place of its own is as good as the others, but for their order; elsewhere it stands the worse the further away it is.
  * A letter that finds no place on which it would cover no other letter, no head of an arrow and no body is not shown.
  */
 
@@ -15,14 +16,16 @@ import { lengthOf, subtract } from "./geometry.js";
 /** @typedef {import("./stage.js").Stage} Stage */
 /** @typedef {{boxes: Box[], strips: Strip[]}} Ground  what is drawn: letters keep off the boxes, and off the lines if they can */
 /** @typedef {{label: Label, width: number, height: number, kept: Kept}} Guest */
-/** @typedef {{choice: number, hidden: boolean, turn: number, moves: number}} Kept  of a letter: the number of its place */
+/** @typedef {{choice: number, fresh: boolean, hidden: boolean, turn: number, moves: number}} Kept  of a letter: the number of its place; fresh: it has not been given one yet */
 
 /** Costs, in the same unit as a place's distance from the first one in units of the drawing. */
 const COVERS = 1000;
 const LEAVES = 1500;
-const CROSSES = 6;
+const CROSSES = 8;
 const CROWDS = 20;
-const STAYS = 5;
+const STAYS = 4;
+/** Of each place of its own further down in the order, in the same unit: all of these are near what it belongs to. */
+const NEXT = 0.5;
 /** Of going far from where it stands. */
 const JUMPS = 0.6;
 /** Units from its first place beyond which it is hard to see what a letter belongs to, and how much worse each further one is. */
@@ -124,12 +127,13 @@ function faults(box, { size, reserved }, ground, taken) {
 function choose(guest, stage, ground, taken, coming) {
   const { label, kept } = guest;
   const places = placesOf(guest, stage.unit);
-  const present = kept.hidden ? -1 : kept.choice;
+  const present = kept.hidden || kept.fresh ? -1 : kept.choice;
   let [best, least] = [-1, MOST];
   for (let choice = 0; choice < places.length; choice += 1) {
-    const off = lengthOf(subtract(places[choice], label.at));
+    const own = choice <= (label.others?.length ?? 0);
+    const off = own ? NEXT * stage.unit * choice : lengthOf(subtract(places[choice], label.at));
     const jump = present < 0 ? 0 : lengthOf(subtract(places[choice], places[present]));
-    const remote = REMOTE * Math.max(0, off / stage.unit - NEAR);
+    const remote = own ? 0 : REMOTE * Math.max(0, off / stage.unit - NEAR);
     const far = (off + JUMPS * jump) / stage.unit + remote - (choice === present ? STAYS : 0);
     if (far >= least) continue;
     const box = boxOf(guest, places[choice]);
@@ -175,7 +179,13 @@ export function placed(stage, figure, t, beside = { boxes: [], strips: [], lette
 /** @param {Stage} stage @param {Label} label @param {number} turn @returns {Guest} */
 function guestOf(stage, label, turn) {
   const [width, height] = extent(stage, label.latex);
-  const kept = stage.once(`place ${label.key}`, () => ({ choice: 0, hidden: false, turn: turn - 1, moves: 0 }));
+  const kept = stage.once(`place ${label.key}`, () => ({
+    choice: 0,
+    fresh: true,
+    hidden: false,
+    turn: turn - 1,
+    moves: 0,
+  }));
   return { label, width, height, kept };
 }
 
@@ -189,5 +199,5 @@ function nowOf(guest, unit) {
 function settle(kept, choice, turn) {
   const hidden = choice < 0;
   if (!hidden && (kept.hidden || choice !== kept.choice)) kept.moves += 1;
-  Object.assign(kept, { choice: hidden ? kept.choice : choice, hidden, turn });
+  Object.assign(kept, { choice: hidden ? kept.choice : choice, fresh: false, hidden, turn });
 }

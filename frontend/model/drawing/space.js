@@ -20,8 +20,12 @@ const NOTHING = { shapes: [], labels: [] };
 const POLAR = 4.8;
 const ROUND = 3.6;
 const LEAST = 0.03;
+/** Below this angle an arc has no room for its letter. */
+const NARROW = 0.15;
 /** Pieces of an arc for each radian. */
 const FINENESS = 10;
+/** Pieces that letters keep off as if they were one. */
+const COARSE = 4;
 const LINED = 0.8;
 
 /** @param {Snapshot} now @param {string | undefined} place @returns {Place} */
@@ -198,6 +202,12 @@ export function top(element, stage, now, key) {
   };
 }
 
+/** A line with many corners in few pieces. @param {readonly Pixel[]} points @returns {import("../types.js").Strip[]} */
+function piecesOf(points) {
+  const corners = points.filter((_, i) => i % COARSE === 0 || i === points.length - 1);
+  return corners.slice(1).map((corner, i) => [corners[i], corner]);
+}
+
 /**
  * An arc with its head and its letter.
  * @param {Element} element @param {Stage} stage
@@ -232,6 +242,7 @@ export function arc(element, stage, { key, centre, on, turn, below }) {
         d: there + back + head,
         className: `pointed mark ${className}`,
         boxes: [tipBox(tip, unit(subtract(tip, points[count - 1])), LINED * size)],
+        strips: piecesOf(points),
       },
     ],
     labels: [
@@ -240,7 +251,7 @@ export function arc(element, stage, { key, centre, on, turn, below }) {
         latex: latexOf(stage.scene, element.coordinate),
         ...aboutArc(beside),
         className,
-        opacity: Math.min(1, Math.max(0, (Math.abs(turn) - 0.15) / 0.15)),
+        opacity: Number(Math.abs(turn) > NARROW),
       },
     ],
   };

@@ -102,15 +102,60 @@ function trimmed(box, steps, points) {
   return [side(0), side(1), side(2), side(3)];
 }
 
+/** Part of the places of a motion that may be behind numbers, how many are looked at, and how near to them is behind them, in pixels. */
+const BEHIND = 0.01;
+const LOOKS = 400;
+const CLOSE = 14;
+/** Part of a drawing that numbers may take away from it. */
+const MOST = 0.5;
+
+/** Places of a motion as they are seen from the front. @param {Trajectory} trajectory @param {boolean} up @returns {Pixel[]} */
+function someOf({ positions }, up) {
+  const paths = Object.values(positions);
+  const step = Math.ceil(paths.reduce((sum, path) => sum + path.length, 0) / LOOKS) || 1;
+  return paths.flatMap((path) => path.filter((_, i) => i % step === 0).map(viewBy(FRONT, up)));
+}
+
+/**
+ * A view in a frame: scale, and where its zero is. All of the frame where the motion keeps off the numbers that lie on it,
+ * else what is left below or beside them, whichever is larger.
+ * @param {Stage["reserved"]} reserved @param {Box} view @param {Trajectory} trajectory @param {Size} size @param {number} sign @returns {{scale: number, origin: Pixel}}
+ */
+function clearOf(reserved, [x0, x1, y0, y1], trajectory, size, sign) {
+  const within = (/** @type {number} */ left, /** @type {number} */ top) => {
+    const [width, height] = [size.width - left, size.height - top];
+    const scale = Math.min(width / (x1 - x0), height / (y1 - y0));
+    const origin = /** @type {Pixel} */ ([
+      left + width / 2 - (scale * (x0 + x1)) / 2,
+      top + height / 2 - (sign * scale * (y0 + y1)) / 2,
+    ]);
+    return { scale, origin };
+  };
+  const whole = within(0, 0);
+  if (!reserved.length) return whole;
+  const places = someOf(trajectory, sign < 0).map(
+    ([x, y]) => /** @type {Pixel} */ ([whole.origin[0] + x * whole.scale, whole.origin[1] + sign * y * whole.scale]),
+  );
+  const behind = places.filter(([x, y]) =>
+    reserved.some(([l, t, r, b]) => x > l - CLOSE && x < r + CLOSE && y > t - CLOSE && y < b + CLOSE),
+  );
+  if (behind.length <= BEHIND * places.length) return whole;
+  const [left, top] = [2, 3].map((side) => Math.max(...reserved.map((box) => box[side])) + CLOSE);
+  const others = [
+    ...(left < MOST * size.width ? [within(left, 0)] : []),
+    ...(top < MOST * size.height ? [within(0, top)] : []),
+  ];
+  return others.sort((one, other) => other.scale - one.scale)[0] ?? whole;
+}
+
 /**
  * @param {Scene} scene @param {Trajectory} trajectory @param {Size} size
  * @param {{rem?: number, reserved?: Stage["reserved"], camera?: import("./camera.js").Camera}} [page]
  * @returns {Stage}
  */
 export function stageOf(scene, trajectory, size, { rem = 16, reserved = [], camera = FRONT } = {}) {
-  const [x0, x1, y0, y1] = viewOf(scene, trajectory);
-  const scale = Math.min(size.width / (x1 - x0), size.height / (y1 - y0));
   const sign = growsUp(scene) ? -1 : 1;
+  const { scale, origin } = clearOf(reserved, viewOf(scene, trajectory), trajectory, size, sign);
   const seen = viewBy(camera, growsUp(scene));
   /** @param {readonly number[]} vector @returns {Pixel} */
   const direct = (vector) => {
@@ -120,7 +165,7 @@ export function stageOf(scene, trajectory, size, { rem = 16, reserved = [], came
   /** @param {readonly number[]} position @returns {Pixel} */
   const project = (position) => {
     const [x, y] = seen(position);
-    return [size.width / 2 + (x - (x0 + x1) / 2) * scale, size.height / 2 + sign * (y - (y0 + y1) / 2) * scale];
+    return [origin[0] + x * scale, origin[1] + sign * y * scale];
   };
   const unit = Math.max(8, Math.min(48, Math.min(size.width, size.height) / 30));
   return { scene, trajectory, size, unit, scale, rem, reserved, down: [0, 1], project, direct, once: keeper() };

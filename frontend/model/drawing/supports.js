@@ -33,7 +33,12 @@ function groundAt(place, element, stage, key) {
   const to = /** @type {Pixel} */ ([base[0] + half, base[1]]);
   const shapes = [
     { key: `${key}-hatch`, d: hatching(from, to, away, stage.unit * 0.75), className: "hatch" },
-    { key: `${key}-line`, d: line(from, to), className: "ink thick" },
+    {
+      key: `${key}-line`,
+      d: line(from, to),
+      className: "ink thick",
+      strips: beside(from, to, away, stage.unit * 0.75),
+    },
   ];
   return { shapes, labels: [] };
 }
@@ -54,9 +59,23 @@ function wallAlong(from, to, stage, key) {
   const away = scaled(normal(subtract(to, from)), 1 / (lengthOf(subtract(to, from)) || 1));
   const shapes = [
     { key: `${key}-hatch`, d: hatching(from, to, away, stage.unit * 0.75), className: "hatch" },
-    { key: `${key}-line`, d: line(from, to), className: "ink thick" },
+    {
+      key: `${key}-line`,
+      d: line(from, to),
+      className: "ink thick",
+      strips: beside(from, to, away, stage.unit * 0.75),
+    },
   ];
   return { shapes, labels: [] };
+}
+
+/** A hatched line and the end of its strokes: letters keep off both. @param {Pixel} from @param {Pixel} to @param {Pixel} towards @param {number} depth @returns {import("../types.js").Strip[]} */
+function beside(from, to, towards, depth) {
+  const aside = scaled(towards, depth);
+  return [
+    [from, to],
+    [add(from, aside), add(to, aside)],
+  ];
 }
 
 /** @param {Element} element @param {Stage} stage */
@@ -119,7 +138,12 @@ function railsAbout(middle, along, element, stage, key) {
     const to = add(offset, scaled(along, last + 1.5 * u));
     return [
       { key: `${key}-hatch${side}`, d: hatching(from, to, scaled(across, side), u * 0.5), className: "hatch" },
-      { key: `${key}-rail${side}`, d: line(from, to), className: "ink" },
+      {
+        key: `${key}-rail${side}`,
+        d: line(from, to),
+        className: "ink",
+        strips: beside(from, to, scaled(across, side), u * 0.5),
+      },
     ];
   });
 }

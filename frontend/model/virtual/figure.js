@@ -23,10 +23,10 @@ import { arrow } from "../drawing/marks.js";
 const MEMBERS = /^(rod|string|spring|damper|bob|cart|block|disc|hoop|pivot|guide)(?!\d*-(hatch|rail|triangle))/;
 /** Where there are more parts than this, only the arrows of the body that has the most of them have letters. */
 const LETTERED = 8;
+/** Of more parts than this letters tell only which coordinate is varied: there is no room for fractions. */
+const FRACTIONS = 3;
 /** Arrows below this many units are too short for a head. */
 const SHORTEST = 0.5;
-/** Parts of δr below this many units have no letters: nobody could tell to which of them it belongs. */
-const TOLD = 0.9;
 
 /**
  * @param {Stage} stage @param {import("./virtual.js").Virtual} virtual
@@ -115,12 +115,13 @@ function summandsOf(stage, from, parts, isLettered) {
   let start = from;
   return parts.map(({ coordinate, vector }, i) => {
     const q = latexOf(stage.scene, coordinate);
+    const slope = parts.length > FRACTIONS ? "" : `\\frac{\\partial\\mathbf r}{\\partial ${q}}\\,`;
     const arrow = {
       key: `part-${i}`,
       from: start,
       vector,
       className: `summand ${coordinateClass(stage.scene, coordinate)}`,
-      latex: isLettered ? `\\frac{\\partial\\mathbf r}{\\partial ${q}}\\,\\delta ${q}` : undefined,
+      latex: isLettered ? `${slope}\\delta ${q}` : undefined,
       side: /** @type {const} */ (-1),
     };
     start = add(start, stage.direct(vector));
@@ -138,24 +139,23 @@ function labelled(stage, { key, from, vector: direction, className, latex, side 
   const shapes = arrow(from, vector, key, className, Math.min(stage.unit, long * 0.5));
   return {
     shapes,
-    labels:
-      latex && (long > TOLD * stage.unit || !className.startsWith("summand"))
-        ? [
-            {
-              key,
-              latex,
-              at: subtract(middle, aside),
-              others: [
-                add(middle, aside),
-                ...[1.7, 2.5, 3.3, 4.2].flatMap((far) => [
-                  subtract(middle, scaled(aside, far)),
-                  add(middle, scaled(aside, far)),
-                ]),
-                add(add(from, vector), scaled(unit(vector), 1.2 * stage.unit)),
-              ],
-              className,
-            },
-          ]
-        : [],
+    labels: latex
+      ? [
+          {
+            key,
+            latex,
+            at: subtract(middle, aside),
+            others: [
+              add(middle, aside),
+              ...[1.7, 2.5, 3.3, 4.2].flatMap((far) => [
+                subtract(middle, scaled(aside, far)),
+                add(middle, scaled(aside, far)),
+              ]),
+              add(add(from, vector), scaled(unit(vector), 1.2 * stage.unit)),
+            ],
+            className,
+          },
+        ]
+      : [],
   };
 }
