@@ -1135,7 +1135,9 @@ export interface components {
         };
         /**
          * Attractor
-         * @description A motion that others come to: a rest, or one that repeats itself after some periods of what drives the scene.
+         * @description A motion that others come to: a rest, or one that repeats itself.
+         *
+         *     That is after some periods of what drives the scene or, where nothing does, by itself: a limit cycle.
          */
         Attractor: {
             /**
@@ -1150,6 +1152,13 @@ export interface components {
              * @description seconds after which it repeats itself; null: a position of rest
              */
             period: number | null;
+            /**
+             * Orbit
+             * @description points of a limit cycle in their order, by free coordinate; null: it is none
+             */
+            orbit?: {
+                [key: string]: components["schemas"]["OrbitColumn"];
+            } | null;
             /**
              * Contraction
              * @description what is left of a deviation after a second, at most: below 1
@@ -3225,8 +3234,11 @@ export interface components {
             coordinates?: {
                 [key: string]: components["schemas"]["Column"][];
             } | null;
-            /** @description largest estimated error of each run: absolute below 1, relative above */
-            error: components["schemas"]["Column"];
+            /**
+             * Error
+             * @description largest estimated error of each run: absolute below 1, relative above; null (packed, NaN) of a run that came to no end
+             */
+            error: (number | null)[] | string;
             /**
              * Steps
              * @description of each run
@@ -5629,6 +5641,16 @@ export interface components {
             folds: number;
             /** Motions */
             motions: components["schemas"]["PeriodicMotion"][];
+        };
+        /**
+         * OrbitColumn
+         * @description One coordinate along a closed orbit.
+         */
+        OrbitColumn: {
+            /** Values */
+            values: number[];
+            /** Rates */
+            rates: number[];
         };
         /**
          * OrderOfConvergence

@@ -129,6 +129,64 @@ def test_a_driven_motion_comes_to_its_forced_vibration() -> None:
     assert (one["share"], found["boundary"]) == (1.0, None)
 
 
+def driven_by_itself(force: str, **values: float) -> dict[str, Any]:
+    """A particle on a line under a force that may feed energy in."""
+    load = {"kind": "force", "name": "force", "at": "p", "force": [force, "0"]}
+    return document({"x": (1.0, 0.0)}, {"m": 1.0, **values}, {"p": ("m", ["x", "0"])}, [load])
+
+
+def test_the_limit_cycle_of_van_der_pol() -> None:
+    """For µ = 1 its amplitude is 2.008619861, its period 6.663286859 (Andersen, Geer, SIAM J. Appl. Math. 42, 1982)."""
+    scene = driven_by_itself("mu*(1 - x^2)*dot(x) - x", mu=1.0)
+    square = {"x_from": -4.0, "x_to": 4.0, "y_from": -4.0, "y_to": 4.0}
+    found = ask(scene=scene, **square, t_end=30.0, count=8)
+    (one,) = found["attractors"]
+    assert one["period"] == pytest.approx(6.663286859, rel=1e-5)
+    assert one["state"]["x"]["value"] == pytest.approx(2.008619861, rel=1e-5)
+    assert (one["share"], found["unsettled"], found["driven"]) == (1.0, 0.0, False)
+
+
+def test_a_rest_inside_of_a_limit_cycle_has_the_disc_between_them() -> None:
+    """ẍ = −x − b ẋ (r² − 1)(r² − 4): r = 1 parts the basins, r = 2 attracts with e^(−12bt), the rest with e^(−2bt)."""
+    scene = driven_by_itself("-x - b*dot(x)*(x^2 + dot(x)^2 - 1)*(x^2 + dot(x)^2 - 4)", b=0.02)
+    square = {"x_from": -3.0, "x_to": 3.0, "y_from": -3.0, "y_to": 3.0}
+    found = ask(scene=scene, **square, t_end=60.0, count=16)
+    kinds = [one["orbit"] is not None for one in found["attractors"]]
+    assert sorted(kinds) == [False, True]
+    cycle, rest = found["attractors"][kinds.index(True)], found["attractors"][kinds.index(False)]
+    x, y = np.meshgrid(found["x"]["values"], found["y"]["values"])
+    np.testing.assert_array_equal(np.array(found["basins"]) == kinds.index(True), np.hypot(x, y) > 1.0)
+    assert cycle["period"] == pytest.approx(math.tau, rel=1e-5)
+    np.testing.assert_allclose(np.hypot(*cycle["orbit"]["x"].values()), 2.0, rtol=1e-4)
+    assert cycle["contraction"] == pytest.approx(math.exp(-12.0 * 0.02), rel=1e-3)
+    assert rest["contraction"] == pytest.approx(math.exp(-2.0 * 0.02), rel=1e-3)
+    assert (found["unsettled"], rest["period"]) == (0.0, None)
+
+
+@pytest.mark.parametrize(("torque", "kinds"), [(0.35, {False, True}), (0.2, {False})])
+def test_a_pendulum_that_is_turned_rotates_or_rests(torque: float, kinds: set[bool]) -> None:
+    """φ̈ = b − sin φ − c φ̇ for c = 0.2: above b = 4c/π it may go round for ever (Strogatz, §8.5); the time by SciPy."""
+    turn = {"kind": "moment", "name": "motor", "angle": "phi", "moment": "b"}
+    drag = {"kind": "dissipation", "name": "drag", "function": "c*dot(phi)^2/2"}
+    weight = {"kind": "potential", "name": "weight", "energy": "-m*cos(phi)"}
+    values = {"m": 1.0, "l": 1.0, "c": 0.2, "b": torque}
+    bob = {"p": ("m", ["l*sin(phi)", "-l*cos(phi)"])}
+    scene = document({"phi": (0.0, 0.0)}, values, bob, [turn, drag, weight])
+    found = ask(scene=scene, vertical="dot(phi)", y_from=-3.0, y_to=3.0, t_end=60.0, count=10)
+    assert {one["orbit"] is not None for one in found["attractors"]} == kinds
+    for one in (each for each in found["attractors"] if each["orbit"]):
+        run = solve_ivp(
+            lambda _t, s: [s[1], torque - math.sin(s[0]) - 0.2 * s[1]],
+            (0.0, 400.0),
+            [0.0, 3.0],
+            "DOP853",
+            rtol=1e-11,
+            atol=1e-11,
+            events=lambda _t, s: math.sin(s[0] / 2.0),
+        )
+        assert one["period"] == pytest.approx(run.t_events[0][-1] - run.t_events[0][-2], rel=1e-5)
+
+
 def test_an_angle_is_the_same_after_a_turn() -> None:
     found = ask(scene="damped-pendulum", vertical="dot(phi)", y_from=-12.0, y_to=12.0, t_end=60.0, count=10)
     (one,) = found["attractors"]

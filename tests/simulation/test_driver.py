@@ -298,6 +298,32 @@ def test_step_limit() -> None:
     assert found.times[-1] == pytest.approx(0.48)
 
 
+@pytest.mark.parametrize(("name", "method"), [("cartesian-pendulum", "radau-5"), ("pendulum", "dop853")])
+def test_motions_that_come_nowhere_are_given_up_early(name: str, method: str) -> None:
+    """A billion turns in ten seconds: all steps that are allowed make some thousand. What is returned is right."""
+    of = load_scene(name)
+    fast = replace(of, coordinates=(replace(of.coordinates[0], rate=1e9), *of.coordinates[1:]))
+    problem = problem_of(fast, 10.0)
+    for _ in range(2):  # the second time in code that is compiled thoroughly
+        found = simulate(problem, get_method(method), tolerance=1e-6)
+        assert (found.outcome.status, found.outcome.code) == ("step_limit", "out_of_reach")
+        assert 0.0 < found.reached < 0.02
+        assert found.cost.steps <= problem.step_limit / 16
+        np.testing.assert_array_equal(found.values[0], problem.values)
+
+
+def test_where_equations_end_no_run_looks_twice() -> None:
+    """A mass of 1e-20 kg between two rods has no acceleration of its own when they are in line."""
+    of = load_scene("double-pendulum-by-rods")
+    light = replace(
+        of, parameters=tuple(replace(p, value=1e-20, min=None) if p.name == "m1" else p for p in of.parameters)
+    )
+    found = simulate(problem_of(light, 10.0), get_method("dop853"), tolerance=1e-6)
+    assert found.outcome.status in ("newton_failed", "singular_constraints")
+    assert found.reached > 0.05
+    assert found.cost.rhs_evaluations < 200_000
+
+
 def test_cancelled() -> None:
     flag = np.ones(1, dtype=np.int64)
     found = simulate(problem_of(load_scene("pendulum"), 10.0), get_method("rk4"), step=0.01, cancelled=flag)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from base64 import b64decode
 from typing import Any
 
 import numpy as np
@@ -73,6 +74,19 @@ def test_one_run_may_fail_and_the_others_not() -> None:
     found = run_ensemble(Ensemble(problem, states, np.repeat([problem.parameters], 3, axis=0)), 1e-8)
     assert [outcome.status for outcome in found.outcomes] == ["ok", "diverged", "ok"]
     assert np.isfinite(found.values[[0, 2]]).all()
+    assert np.isfinite(found.worst).tolist() == [True, False, True]
+    np.testing.assert_array_equal(np.isnan(found.errors[1]), np.isnan(found.values[1]))
+
+
+@pytest.mark.parametrize("force", ["m*x^3", "m*x^3 + m*abs(x)"], ids=["in lanes", "one by one"])
+def test_no_error_is_told_of_a_run_that_runs_away(force: str) -> None:
+    """x″ = x³ from x = 2, u = 3: the singularity lies within the span."""
+    told = {"vary": {"initial.x.value": [0.0, 2.0], "initial.x.rate": [0.0, 3.0]}, "combine": "together"}
+    found = ask(scene=write_scene(oscillator(force)), t_end=3.0, samples=11, tolerance=1e-8, **told)
+    assert found["status"] == ["ok", "diverged"]
+    assert [one is None for one in found["error"]] == [False, True]
+    packed = ask(scene=write_scene(oscillator(force)), t_end=3.0, columns="base64", **told)
+    assert np.isnan(np.frombuffer(b64decode(packed["error"]))).tolist() == [False, True]
 
 
 @pytest.mark.parametrize("rate", [1e2, 1e3])

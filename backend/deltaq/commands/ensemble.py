@@ -73,5 +73,6 @@ def _variation(text: str) -> tuple[str, Any]:
 
 def _table(answer: dict[str, Any]) -> str:
     ends = {name: [column[-1] if column else "" for column in runs] for name, runs in answer["coordinates"].items()}
-    columns = {**answer["quantities"], "status": answer["status"], "error": answer["error"], **ends}
+    errors = ["" if error is None else error for error in answer["error"]]
+    columns = {**answer["quantities"], "status": answer["status"], "error": errors, **ends}
     return table(columns)

@@ -10,7 +10,7 @@ from pydantic_core import PydanticCustomError
 
 from ..vocabulary import Status
 from .base import OF_KIND, Answer, AskedLanguage, Request, SceneWithInitialValues, examples, items
-from .simulation import LARGEST_SPAN, USUAL_TOLERANCE, Column, Written
+from .simulation import LARGEST_SPAN, USUAL_TOLERANCE, Base64, Column, Written
 
 MOST_RUNS = 100_000
 MOST_SECONDS = 500_000.0  # of all motions together
@@ -128,7 +128,10 @@ class EnsembleAnswer(Answer):
     status: tuple[Status, ...] = Field(description="of each run", examples=[["ok", "ok"]])
     reasons: dict[str, str] = Field(description="what each status that occurs means, and what to do")
     coordinates: dict[str, tuple[Column, ...]] | None = Field(None, description="by coordinate, a column for each run")
-    error: Column = Field(description="largest estimated error of each run: absolute below 1, relative above")
+    error: tuple[float | None, ...] | Base64 = Field(
+        description="largest estimated error of each run: absolute below 1, relative above; "
+        "null (packed, NaN) of a run that came to no end"
+    )
     steps: tuple[int, ...] = Field(description="of each run")
     mean: dict[str, Column] | None = Field(None, description="over the runs, by coordinate")
     quantiles: Quantiles | None = None

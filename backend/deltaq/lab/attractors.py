@@ -2,7 +2,7 @@
 
 A scene is looked at once in each period of its drive, or, where nothing drives it, in equal times: an attractor is a
 fixed point of that map, or of its second, third or fourth power, whose Floquet multipliers all are below 1 in size. It
-is found by Newton's method from where a motion has settled.
+is found by Newton's method from where a motion has settled. Closed orbits of what nothing drives: see `limit_cycle`.
 Source: Seydel, Practical Bifurcation and Stability Analysis, ch. 7; McDonald, Grebogi, Ott, Yorke, Physica D 17 (1985).
 """
 
@@ -17,6 +17,7 @@ import numpy as np
 from ..simulation.ensemble import Ensemble, run_ensemble
 from ..simulation.march import Integers, Truths
 from ..simulation.problem import Floats, Problem
+from .limit_cycle import limit_cycle
 from .propagation import Propagation, propagated
 
 LOOKS = 8  # in the span, where nothing drives the scene
@@ -26,7 +27,7 @@ ALIKE = 1e-4  # of what the motions cover: attractors that are closer are one
 SETTLED = 0.02  # of what the motions cover: change after a period
 NEWTON, SOLVED = 8, 1e-9
 BELOW = 1e-6  # 1 less a multiplier that contracts
-MOST = 16  # attractors
+MOST, MOST_WITHOUT = 16, 12  # attractors; motions near which no closed orbit is found, in vain
 TOLERANCE = 1e-8
 NONE, ENDED = -1, -2
 AGAIN = 3  # times that what has not settled goes on
@@ -34,10 +35,16 @@ AGAIN = 3  # times that what has not settled goes on
 
 @dataclass(frozen=True)
 class Attractor:
-    """The `states` that it goes through, shape (periods, 2n), and the largest Floquet multiplier by its `size`."""
+    """The `states` that it goes through, and the largest Floquet multiplier by its `size`, over so many `seconds`.
+
+    `states` has shape (periods, 2n), or, where the orbit `is_closed` by itself, (points, 2n): then they are the corners
+    of a polygon, and nothing repeats before all of them are passed.
+    """
 
     states: Floats
     size: float
+    seconds: float
+    is_closed: bool = False
 
 
 @dataclass(frozen=True)
@@ -87,7 +94,12 @@ class Stroboscope:
             return None
         size = float(np.abs(np.linalg.eigvals(flow.matrices[-1])).max())
         stops = np.linspace(0, len(flow.times) - 1, periods + 1).astype(int)[:-1]
-        return Attractor(flow.states[stops], size) if size < 1.0 - BELOW else None
+        return Attractor(flow.states[stops], size, periods * self.period) if size < 1.0 - BELOW else None
+
+    def cycle(self, start: Floats) -> Attractor | None:
+        """The closed orbit near a state, shape (2n,), that nothing drives; None where there is none that attracts."""
+        found = limit_cycle(self.problem, start, self.apart)
+        return Attractor(found.states, found.size, found.period, is_closed=True) if found else None
 
     def _flow(self, state: Floats, periods: int) -> Propagation:
         n, span = self.problem.degrees, periods * self.period
@@ -122,6 +134,7 @@ class Search:
     def __init__(self, stroboscope: Stroboscope, sizes: Floats) -> None:
         self.stroboscope, self.attractors = stroboscope, list[Attractor]()
         self._sizes, self._refused = sizes, list[Floats]()
+        self._without_cycle = 0
 
     def landed(self, starts: Floats) -> Landing:
         """Motions from `starts`, shape (motions, 2n): what has not settled goes on some times."""
@@ -154,22 +167,36 @@ class Search:
         for place in np.flatnonzero(found == NONE):
             if found[place] != NONE or len(self.attractors) >= MOST:
                 continue
-            periods = self._periods(states[place])
-            if periods and not self._is_refused(states[place, -1]):
-                self._look(states[place, -1], periods)
+            if self._is_refused(states[place, -1]):
+                continue
+            if self._look(states[place]):
                 found = np.where(found == NONE, self._nearest(states), found)
         return found
 
-    def _look(self, state: Floats, periods: int) -> None:
-        """Keeps the attractor near a state, if it is a new one; else the state, so that it is not tried again."""
-        attractor = self.stroboscope.attractor(state, periods)
-        known = (
-            any(self._distance(attractor.states[:1], one).min() < ALIKE for one in self.attractors) if attractor else 0
-        )
-        if attractor is None or known or self._distance(state[None, :], attractor).min() > 2.0 * NEAR:
+    def _look(self, states: Floats) -> bool:
+        """Whether there is a new attractor near a motion, seen at the last looks, shape (looks, 2n): it is kept.
+
+        Else the state is, so that it is not tried again.
+        """
+        state, periods = states[-1], self._periods(states)
+        if periods and self._keep(state, self.stroboscope.attractor(state, periods)):
+            return True
+        if not self.stroboscope.is_driven and self._without_cycle < MOST_WITHOUT and np.isfinite(state).all():
+            if self._keep(state, self.stroboscope.cycle(state)):
+                return True
+            self._without_cycle += 1
+        if periods:
             self._refused.append(state)
-        else:
-            self.attractors.append(attractor)
+        return False
+
+    def _keep(self, state: Floats, attractor: Attractor | None) -> bool:
+        """Keeps an attractor if it is one, new, and near the state that led to it."""
+        if attractor is None or self._distance(state[None, :], attractor).min() > 2.0 * NEAR:
+            return False
+        if any(self._distance(attractor.states[:1], one).min() < ALIKE for one in self.attractors):
+            return False
+        self.attractors.append(attractor)
+        return True
 
     def _is_refused(self, state: Floats) -> bool:
         scaled = (np.abs(self.stroboscope.apart(state, one)) / self._sizes for one in self._refused)
@@ -197,9 +224,16 @@ class Search:
         return np.asarray(np.where(near, order[0], found))
 
     def _distance(self, states: Floats, attractor: Attractor) -> Floats:
-        """From states, shape (motions, 2n), to each of an attractor's, over what motions cover: (motions, periods)."""
-        apart = self.stroboscope.apart(states[:, None, :], attractor.states[None, :, :])
-        return np.asarray(np.max(np.abs(apart) / self._sizes, axis=2))
+        """From states, shape (motions, 2n), to each of an attractor's, over what motions cover: (motions, states).
+
+        Of a closed orbit it is that to the sides of the polygon.
+        """
+        apart = self.stroboscope.apart(states[:, None, :], attractor.states[None, :, :]) / self._sizes
+        if attractor.is_closed:
+            sides = self.stroboscope.apart(np.roll(attractor.states, -1, axis=0), attractor.states) / self._sizes
+            squares = np.maximum((sides**2).sum(axis=1), 1e-300)
+            apart = apart - np.clip((apart * sides).sum(axis=2) / squares, 0.0, 1.0)[:, :, None] * sides
+        return np.asarray(np.max(np.abs(apart), axis=2))
 
 
 def staged(count: int, coarsest: int = 4) -> Iterator[Integers]:

@@ -23,7 +23,7 @@ from ..simulation.kernels.step_control import Control
 from ..simulation.kernels.tangent import Pair, Progress, Trace, begin_pair, follow_stretches
 from ..simulation.library import get_method
 from ..simulation.method import Tableau
-from ..simulation.outcome import outcome_of
+from ..simulation.outcome import OUT_OF_REACH, outcome_of
 from ..simulation.problem import Floats, Problem
 from ..simulation.run import Run, Steps, run
 from ..simulation.service import problem_of
@@ -148,7 +148,7 @@ def followed(problem: Problem, rhythm: Rhythm, periods: int = PERIODS) -> Iterat
         _unwind(pair, turning)
         if done < count and outcome == FINE:
             yield Followed(rhythm, trace.states[:done], trace.growths[:done], "ok", is_whole=False)
-    status = outcome_of(outcome, {}).status if outcome not in (FINE, STEP_LIMIT) else "ok"
+    status = outcome_of(outcome, {}).status if outcome not in (FINE, STEP_LIMIT, OUT_OF_REACH) else "ok"
     yield Followed(rhythm, trace.states[:done], trace.growths[:done], status, is_whole=True)
 
 

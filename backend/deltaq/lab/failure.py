@@ -21,6 +21,7 @@ import numpy as np
 from ..contract.experiments.stability import Basis, Cause
 from ..simulation.kernels.motion import FINE, NEWTON_FAILED, STEP_LIMIT
 from ..simulation.method import Method
+from ..simulation.outcome import OUT_OF_REACH
 from ..simulation.problem import Floats
 from ..simulation.stability import largest_stable_step
 from .neighbours import KICK, SMALL, STEPS, Neighbours, Pair
@@ -200,7 +201,7 @@ def _outcomes(pair: Pair) -> tuple[int, int]:
 
 def _ran(pair: Pair) -> bool:
     """Whether both runs came to their ends."""
-    return all(outcome in (FINE, STEP_LIMIT) for outcome in _outcomes(pair))
+    return all(outcome in (FINE, STEP_LIMIT, OUT_OF_REACH) for outcome in _outcomes(pair))
 
 
 def growth_in_a_step(distances: Floats) -> float:

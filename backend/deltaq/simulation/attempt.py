@@ -14,8 +14,9 @@ from .estimate import Estimate, estimate, larger, rounding_matters, with_roundin
 from .event import EventOccurrence
 from .hybrid import run_on
 from .integration import Flag
-from .kernels.motion import CANCELLED, STEP_LIMIT, STIFF
+from .kernels.motion import CANCELLED, LOCKED, NEWTON_FAILED, SINGULAR, STEP_LIMIT, STIFF
 from .method import Method
+from .outcome import OUT_OF_REACH
 from .pieces import Pieces, Stretch
 from .problem import Floats, Problem
 from .refinement import FINER, LAST, Refinement
@@ -26,6 +27,7 @@ from .transitions import begun
 TRIES = 6
 ROUNDS = 4  # of shorter steps where a run was blind
 BY_EVENTS = 0.5  # of the difference, where a motion goes on behind events
+SAME_PLACE = 1e-6  # of the time: runs that end so close to each other end at the same place
 BRIEF = 5_000  # right-hand sides; fewer take less time than a second thread needs to begin
 
 
@@ -277,6 +279,14 @@ def _excess(attempt: Attempt, tolerance: float) -> float:
 
 def _can_improve(attempt: Attempt, tolerance: float, problem: Problem) -> bool:
     is_reached = attempt.estimate is not None and attempt.estimate.worst <= tolerance
-    is_cut_short = any(run.result.outcome in (STEP_LIMIT, CANCELLED, STIFF) for run in attempt.runs)
+    is_cut_short = any(run.result.outcome in (STEP_LIMIT, OUT_OF_REACH, CANCELLED, STIFF) for run in attempt.runs)
     steps = max(run.result.steps + run.result.rejected for run in attempt.runs)
-    return not (is_reached and attempt.is_complete) and not is_cut_short and 2 * steps < problem.step_limit
+    is_over = is_cut_short or _is_stuck(attempt)
+    return not (is_reached and attempt.is_complete) and not is_over and 2 * steps < problem.step_limit
+
+
+def _is_stuck(attempt: Attempt) -> bool:
+    """Whether all runs end at one place where the equations cannot be solved: finer ones would end there as well."""
+    ends = [run.result.reached for run in attempt.runs]
+    is_unsolved = all(run.result.outcome in (NEWTON_FAILED, LOCKED, SINGULAR) for run in attempt.runs)
+    return is_unsolved and max(ends) - min(ends) <= SAME_PLACE * min(ends)

@@ -146,6 +146,7 @@ def _trajectory(
         reactions,
         transitions,
         tuple(Stretch(each.start, each.problem) for each in best.chosen.meshes),
+        best.is_complete,
     )
 
 

@@ -19,6 +19,7 @@ from .audit import Audit
 from .driver import simulate
 from .integration import Flag
 from .kernels.ensemble import Members, integrate_members, make_lanes
+from .kernels.motion import FINE
 from .library import get_method
 from .method import Series
 from .outcome import Number, Outcome, outcome_of
@@ -69,7 +70,8 @@ class EnsembleMotion:
 
     `values` and `rates` are q and q̇ of the free coordinates, shape (motions, samples, n).
     `errors`, of the same shape, estimate those of the values; `worst`, shape (motions,), is the largest in the measure
-    of a tolerance. `steps`, shape (motions,), are those of the runs returned.
+    of a tolerance, NaN of a motion that came to no end: how wrong it is there nobody knows. `steps`, shape (motions,),
+    are those of the runs returned.
     """
 
     times: Floats
@@ -188,30 +190,33 @@ def in_lanes(
 
 def _judged(ensemble: Ensemble, coarse: Members, fine: Members, factor: float, tolerance: float) -> EnsembleMotion:
     """The coarser runs with their estimates and outcomes."""
-    n, problem = ensemble.problem.degrees, ensemble.problem
-    values = coarse.samples[:, :, :n]
+    n, problem, end = ensemble.problem.degrees, ensemble.problem, 2 * ensemble.problem.degrees
+    is_known = np.isfinite(fine.samples[:, :, :end]).all(axis=2, keepdims=True)  # what but one run came to is not
+    states = np.where(is_known, coarse.samples[:, :, :end], np.nan)
+    values, codes = states[:, :, :n], np.where(coarse.outcomes != 0, coarse.outcomes, fine.outcomes)
     sizes = np.abs(values)
     with np.errstate(invalid="ignore", over="ignore"):
-        apart = np.nan_to_num(np.abs(values - fine.samples[:, :, :n]), nan=0.0)
-        spread = np.maximum.accumulate(factor * apart + ROUNDING * sizes, axis=1)
-        errors = np.nan_to_num(spread, nan=0.0)
-        worst = (errors / np.maximum(1.0, np.nan_to_num(sizes))).max(axis=(1, 2))
+        apart = np.abs(values - fine.samples[:, :, :n])
+        errors = np.maximum.accumulate(factor * apart + ROUNDING * sizes, axis=1)  # NaN from the end on
+        known = np.nan_to_num(errors, nan=0.0)
+        worst = (known / np.maximum(1.0, np.nan_to_num(sizes))).max(axis=(1, 2))
         largest = np.nan_to_num(sizes).max(axis=1, keepdims=True)
         angular = np.array(problem.angular or (False,) * n)
         scale = np.where(angular, np.minimum(largest, 1.0), largest)
-        lost = ((errors >= LOST * scale) & (scale > 0.0)).any(axis=2)
+        lost = ((known >= LOST * scale) & (scale > 0.0)).any(axis=2)
+    worst = np.where(codes == FINE, worst, np.nan)
     horizons = np.where(lost.any(axis=1), coarse.times[lost.argmax(axis=1)], np.inf)
     outcomes = tuple(
         _outcome(problem, int(code), float(end), float(horizon), float(bad), tolerance)
         for code, end, horizon, bad in zip(
-            np.where(coarse.outcomes != 0, coarse.outcomes, fine.outcomes),
+            codes,
             coarse.times[np.maximum(np.minimum(fine.filled, coarse.filled) - 1, 0)],
             horizons,
             worst,
             strict=True,
         )
     )
-    return EnsembleMotion(coarse.times, values, coarse.samples[:, :, n : 2 * n], errors, worst, coarse.steps, outcomes)
+    return EnsembleMotion(coarse.times, values, states[:, :, n:], errors, worst, coarse.steps, outcomes)
 
 
 def _outcome(problem: Problem, code: int, end: float, horizon: float, worst: float, tolerance: float) -> Outcome:
@@ -227,7 +232,7 @@ def _outcome(problem: Problem, code: int, end: float, horizon: float, worst: flo
 
 def _merged(found: EnsembleMotion, again: EnsembleMotion, which: NDArray[np.int64]) -> EnsembleMotion:
     """The motions, some of them replaced where the new ones are better."""
-    better = again.worst < found.worst[which]
+    better = again.worst < found.worst[which]  # not where they come to no end
     places, rows = which[better], np.flatnonzero(better)
     outcomes = list(found.outcomes)
     for place, row in zip(places, rows, strict=True):
@@ -250,7 +255,8 @@ def _one_by_one(ensemble: Ensemble, tolerance: float, flag: Flag, tell: Callable
         values[index, :rows], rates[index, :rows] = found.values[:rows], found.rates[:rows]
         if found.estimate is not None:
             errors[index, :rows] = found.estimate.errors[:rows, None]  # the largest of any coordinate
-            worst[index] = found.estimate.worst
+        is_judged = found.estimate is not None and found.is_complete
+        worst[index] = found.estimate.worst if found.estimate is not None and is_judged else np.nan
         steps[index] = found.cost.steps
         told = {} if found.event is None else {"title": problem.model.scene.events[found.event.index].name}
         outcomes.append(replace(found.outcome, parameters={**found.outcome.parameters, **told}))

@@ -150,7 +150,7 @@ def _answered(asked: EnsembleRequest, scene: Scene, varied: Varied, found: Ensem
         "quantities": {name: written(column) for name, column in varied.quantities.items()},
         "status": [outcome.status for outcome in found.outcomes],
         "outcomes": {outcome.status: (outcome.code, dict(outcome.parameters)) for outcome in found.outcomes[::-1]},
-        "error": written(np.array([short(worst) for worst in found.worst])),
+        "error": _errors(found.worst, asked.columns),
         "steps": found.steps.tolist(),
         "columns": asked.columns,
     }
@@ -161,6 +161,13 @@ def _answered(asked: EnsembleRequest, scene: Scene, varied: Varied, found: Ensem
             name: [_reached(np.ascontiguousarray(one[:, i]), written) for one in values] for i, name in enumerate(names)
         }
     return answer | _statistics(asked, names, found)
+
+
+def _errors(worst: Floats, columns: str) -> list[float | None] | str:
+    """As a column, shape (runs,); what is not known is null among numbers, and NaN where they are packed."""
+    if columns != "numbers":
+        return WRITERS[columns].write(np.array([short(one) for one in worst]))  # type: ignore[return-value]
+    return [None if np.isnan(one) else short(one) for one in worst]
 
 
 def _reached(values: Floats, written: Callable[[Floats], Column]) -> Column:

@@ -17,7 +17,7 @@ from .integration import Flag
 from .kernels.loop import Result
 from .kernels.motion import FINE, MANY_EVENTS, STEP_LIMIT, UNSETTLED
 from .method import Method
-from .outcome import NO_DIRECTION
+from .outcome import NO_DIRECTION, OUT_OF_REACH
 from .pieces import Pieces
 from .problem import Floats, Problem
 from .run import Mesh, Run, Steps, run
@@ -93,7 +93,7 @@ def run_on(problem: Problem, modes: Modes, method: Method, times: Floats, cancel
         stretch, ahead = _problem(current, record.steps), _ahead(times, current.time)
         found = run(stretch, method, ahead, cancelled, _after(steps, current.time))
         record.add(stretch, found)
-        if found.event is None or found.result.outcome == STEP_LIMIT:
+        if found.event is None or found.result.outcome in (STEP_LIMIT, OUT_OF_REACH):
             return _whole(record, times, found.result.outcome, float(found.result.reached), found)
         event = found.event
         _fill(record, times, event, problem.degrees)

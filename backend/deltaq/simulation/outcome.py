@@ -25,7 +25,8 @@ from .kernels.motion import (
 )
 
 Number = str | int | float
-NO_DIRECTION = UNSETTLED + 1  # no kernel says so: of runs that go on behind events
+# No kernel says so: of runs that go on behind events; of those whose steps are too short to come anywhere.
+NO_DIRECTION, OUT_OF_REACH = UNSETTLED + 1, UNSETTLED + 2
 
 
 @dataclass(frozen=True)
@@ -57,6 +58,7 @@ _WORDS: Mapping[int, tuple[Status, str]] = MappingProxyType(
         MANY_EVENTS: ("step_limit", "many_events"),
         UNSETTLED: ("unresolved", "contacts_at_once"),
         NO_DIRECTION: ("unresolved", "contact_without_direction"),
+        OUT_OF_REACH: ("step_limit", "out_of_reach"),
     }
 )
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
+from math import log2
 from time import perf_counter
 
 import numpy as np
@@ -15,6 +16,7 @@ from .kernels.motion import EVENT, FINE, HELD, LOCKED, NEWTON_FAILED, SINGULAR, 
 from .kernels.plan import CAPACITY, COUNT, STRIDE, Plan, make_plan
 from .kernels.step_control import Control
 from .method import Method, Series
+from .outcome import OUT_OF_REACH
 from .pieces import Pieces
 from .problem import Floats, Problem
 from .reactions import reactions_at
@@ -24,6 +26,8 @@ from .transitions import Transition
 
 APART = 1e-6  # of the distance between two samples; the last one before an event is that far from it at least
 
+PART = 16  # of the steps that are allowed: after so large a part it is looked whether the end is within reach
+REACH = 0.1  # of the span: motions that would not come so far are given up
 SHORT = 100_000  # right-hand sides; the time for so many is about that of compiling thoroughly
 
 
@@ -122,17 +126,46 @@ def run(problem: Problem, method: Method, times: Floats, cancelled: Flag, steps:
 
     A run begins in machine code that is compiled quickly. One that turns out to be long begins again in code that runs
     faster, whose compilation takes as long as what was lost; so do runs of a model that has run for as long already.
+    One that has taken a part of the steps that are allowed is given up where the rest of them would bring it nowhere.
     """
-    model, stages = problem.model, method.tableau.stages
-    shortest = problem.step_limit * stages <= SHORT
+    model, stages, limit = problem.model, method.tableau.stages, problem.step_limit
+    shortest = limit * stages <= SHORT
     known = float(times[-1]) / steps.size * steps.ratio * stages if steps.tolerance == 0.0 else 0.0
     if shortest or not (model.is_thorough or max(known, model.usage.evaluations) > SHORT):
-        limit = min(SHORT // stages, problem.step_limit)
-        found = _run(replace(problem, step_limit=limit), method, times, cancelled, steps, is_long=False)
+        found = _limited(problem, method, times, cancelled, steps, min(SHORT // stages, limit), is_long=False)
         model.usage.evaluations += found.result.evaluations
         if shortest or found.result.outcome not in (STEP_LIMIT, STIFF):
             return found
+    elif steps.tolerance > 0.0 and limit // PART * stages > SHORT:
+        found = _limited(problem, method, times, cancelled, steps, limit // PART, is_long=True)
+        if found.result.outcome != STEP_LIMIT:
+            return found
     return _run(problem, method, times, cancelled, steps, is_long=True)
+
+
+def _limited(
+    problem: Problem, method: Method, times: Floats, cancelled: Flag, steps: Steps, limit: int, *, is_long: bool
+) -> Run:
+    """A run of so many steps at most; OUT_OF_REACH if even all that the problem allows would bring it nowhere.
+
+    How the time that it comes to grows with the steps, as a power of their number, half of them tell as well.
+    """
+
+    def once(most: int) -> Run:
+        return _run(replace(problem, step_limit=most), method, times, cancelled, steps, is_long=is_long)
+
+    found = once(limit)
+    if found.result.outcome != STEP_LIMIT or steps.tolerance == 0.0 or limit == problem.step_limit:
+        return found
+    span = float(times[-1] - times[0])
+    gone, left = float(found.result.reached - times[0]), problem.step_limit / limit
+    if not 0.0 < gone < REACH * span:
+        return found
+    half = float(once(limit // 2).result.reached - times[0])
+    power = max(log2(gone / half), 1.0) if half > 0.0 else np.inf
+    if log2(gone) + power * log2(left) >= log2(REACH * span):
+        return found
+    return replace(found, result=found.result._replace(outcome=OUT_OF_REACH))
 
 
 def _run(problem: Problem, method: Method, times: Floats, cancelled: Flag, steps: Steps, *, is_long: bool) -> Run:

@@ -26,11 +26,24 @@ class BasinSide(Answer):
     values: tuple[float, ...]
 
 
+class OrbitColumn(Answer):
+    """One coordinate along a closed orbit."""
+
+    values: tuple[float, ...]
+    rates: tuple[float, ...]
+
+
 class Attractor(Answer):
-    """A motion that others come to: a rest, or one that repeats itself after some periods of what drives the scene."""
+    """A motion that others come to: a rest, or one that repeats itself.
+
+    That is after some periods of what drives the scene or, where nothing does, by itself: a limit cycle.
+    """
 
     state: dict[str, Begin] = Field(description="where it is at the beginning of a period, by free coordinate")
     period: float | None = Field(description="seconds after which it repeats itself; null: a position of rest")
+    orbit: dict[str, OrbitColumn] | None = Field(
+        None, description="points of a limit cycle in their order, by free coordinate; null: it is none"
+    )
     contraction: float = Field(description="what is left of a deviation after a second, at most: below 1")
     share: float = Field(description="the part of the starts that come to it")
     interval: Pair = Field(description="of that part: as if the starts were drawn at random")

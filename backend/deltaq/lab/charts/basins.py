@@ -35,7 +35,7 @@ def _map(result: Result, say: Say) -> Chart:
         "hovertemplate": f"{across} = %{{x:.4g}}<br>{up} = %{{y:.4g}}<br>%{{z}}<extra></extra>",
         "meta": {"role": "basins", "x": x["quantity"], "y": y["quantity"]},
     }
-    marks = [_mark(result, number, say) for number in range(count)]
+    marks = [trace for number in range(count) for trace in _marks(result, number, say)]
     anchor = "x" if x["values"] == y["values"] else None  # alike sides are drawn alike
     axes = {"xaxis": axis(across, constrain="domain"), "yaxis": axis(up, constrain="domain", scaleanchor=anchor)}
     caption = " ".join(_told(result, say))
@@ -50,6 +50,44 @@ def _steps(colors: list[str]) -> list[tuple[float, str]]:
     """A scale without transitions: one colour for each number."""
     count = len(colors)
     return [(place / count, color) for number, color in enumerate(colors) for place in (number, number + 1)]
+
+
+def _marks(result: Result, number: int, say: Say) -> Iterator[Trace]:
+    """An attractor by its place, a limit cycle by its orbit: a line with a border, to be seen on its own colour."""
+    orbit = result["attractors"][number].get("orbit")
+    if not orbit:
+        yield _mark(result, number, say)
+        return
+    columns = [_column(orbit, result[side]["quantity"]) for side in ("x", "y")]
+    x, y = _broken([[*one, one[0]] for one in columns])
+    border = {"type": "scatter", "mode": "lines", "x": x, "y": y, "showlegend": False, "hoverinfo": "skip"}
+    yield border | {"line": {"color": INK, "width": 4.5}}
+    name = say(f"{KEY}.number", number=number + 1, percent=100.0 * result["attractors"][number]["share"])
+    line = {"color": _color(number), "width": 2.0}
+    yield {"type": "scatter", "mode": "lines", "x": x, "y": y, "name": name, "line": line}
+
+
+def _column(orbit: Any, quantity: str) -> list[float]:
+    is_rate = quantity.startswith("dot(")
+    one = orbit[quantity[4:-1] if is_rate else quantity]
+    return list(one["rates" if is_rate else "values"])
+
+
+def _broken(columns: list[list[float]]) -> list[list[float | None]]:
+    """Columns of points, with a gap where an angle begins anew: there a line would go across the map.
+
+    Neighbours of an orbit are near each other; what is half of the column apart has gone round.
+    """
+    widths = [max(one) - min(one) for one in columns]
+    gaps = [
+        place
+        for place in range(1, len(columns[0]))
+        if any(abs(one[place] - one[place - 1]) > 0.5 * width > 0.0 for one, width in zip(columns, widths, strict=True))
+    ]
+    return [
+        [each for place, value in enumerate(one) for each in ((None, value) if place in gaps else (value,))]
+        for one in columns
+    ]
 
 
 def _mark(result: Result, number: int, say: Say) -> Trace:
@@ -105,7 +143,7 @@ def _told(result: Result, say: Say) -> Iterator[str]:
         place = ", ".join(
             f"{_written(result, name)} = {say(f'{KEY}.size', size=at['value'])}" for name, at in one["state"].items()
         )
-        key = "periodic" if one["period"] else "rest"
+        key = "cycle" if one.get("orbit") else "periodic" if one["period"] else "rest"
         yield say(
             f"{KEY}.{key}",
             number=number + 1,

@@ -30,6 +30,7 @@ MOST_STEPS = 100_000  # of one run
 MOST_SINGLE = 15_000.0  # seconds of all motions, where each has to be run by itself
 TOGETHER = 512  # runs, between two reports
 UNSURE = 0.1  # of the way between attractors: an error that may decide
+EVERY, ORBIT = 4, 5  # of the points of a closed orbit, which are told to so many digits
 USUAL = 1.0  # half a side of the map, where the scene has no bounds
 
 
@@ -201,7 +202,7 @@ def _told(request: BasinsRequest, subject: Subject, chart: _Map, search: Search,
 
 def _attractor(subject: Subject, stroboscope: Stroboscope, found: Attractor, hits: int, total: int) -> Document:
     n, free = subject.problem.degrees, [coordinate.name for coordinate in subject.scene.free]
-    state, seconds = found.states[0], len(found.states) * stroboscope.period
+    state, seconds = found.states[0], found.seconds
     state = stroboscope.apart(state, np.zeros_like(state))  # angles without whole turns
     state = np.where(np.abs(state) > 1e-12 * np.abs(state).max(), state, 0.0)
     return {
@@ -209,10 +210,20 @@ def _attractor(subject: Subject, stroboscope: Stroboscope, found: Attractor, hit
             name: {"value": significant(float(state[i]), 6), "rate": significant(float(state[n + i]), 6)}
             for i, name in enumerate(free)
         },
-        "period": significant(seconds, 6) if stroboscope.is_driven else None,
+        "period": significant(seconds, 6) if stroboscope.is_driven or found.is_closed else None,
+        "orbit": _orbit(free, stroboscope, found.states[::EVERY]) if found.is_closed else None,
         "contraction": significant(max(found.size, 1e-300) ** (1.0 / seconds)),
         "share": significant(hits / total, 4),
         "interval": rounded(wilson(hits, total), 4),
+    }
+
+
+def _orbit(names: list[str], stroboscope: Stroboscope, states: Floats) -> Document:
+    """Points of a closed orbit by coordinate; angles without whole turns."""
+    found, n = stroboscope.apart(states, np.zeros_like(states)), len(names)
+    return {
+        name: {"values": rounded(found[:, i], ORBIT), "rates": rounded(found[:, n + i], ORBIT)}
+        for i, name in enumerate(names)
     }
 
 
