@@ -146,7 +146,6 @@ def _trajectory(
         reactions,
         transitions,
         tuple(Stretch(each.start, each.problem) for each in best.chosen.meshes),
-        best.is_complete,
     )
 
 

@@ -255,7 +255,7 @@ def _one_by_one(ensemble: Ensemble, tolerance: float, flag: Flag, tell: Callable
         values[index, :rows], rates[index, :rows] = found.values[:rows], found.rates[:rows]
         if found.estimate is not None:
             errors[index, :rows] = found.estimate.errors[:rows, None]  # the largest of any coordinate
-        is_judged = found.estimate is not None and found.is_complete
+        is_judged = found.estimate is not None and found.outcome.is_judged
         worst[index] = found.estimate.worst if found.estimate is not None and is_judged else np.nan
         steps[index] = found.cost.steps
         told = {} if found.event is None else {"title": problem.model.scene.events[found.event.index].name}

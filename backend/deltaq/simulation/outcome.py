@@ -28,6 +28,8 @@ Number = str | int | float
 # No kernel says so: of runs that go on behind events; of those whose steps are too short to come anywhere.
 NO_DIRECTION, OUT_OF_REACH = UNSETTLED + 1, UNSETTLED + 2
 
+JUDGED = frozenset({"ok", "event", "stopped", "guide_jumps", "horizon_reached", "tolerance_missed"})
+
 
 @dataclass(frozen=True)
 class Outcome:
@@ -36,6 +38,11 @@ class Outcome:
     status: RungStatus
     code: str
     parameters: Mapping[str, Number] = field(default_factory=dict)
+
+    @property
+    def is_judged(self) -> bool:
+        """Whether the runs came to where the motion ends, so that their difference tells how wrong it is there."""
+        return self.status in JUDGED
 
 
 OK = Outcome("ok", "ok")

@@ -58,7 +58,6 @@ class Trajectory:
     reactions: Reactions | None = None
     transitions: tuple[Transition, ...] = ()
     stretches: tuple[Stretch, ...] = ()
-    is_complete: bool = True  # whether its runs came to the end of the span, to an event or to rest by friction
 
     @property
     def trusted_until(self) -> float:
