@@ -87,3 +87,16 @@ def test_what_is_known_up_to_a_constant_differs_whatever_the_constant(task: str,
     gaps = [one["yours"] - one["right"] for one in shifted]
     assert gaps[0] == pytest.approx(gaps[1], rel=1e-4)
     assert abs(gaps[0]) > 1e-3
+
+
+@pytest.mark.parametrize(
+    ("task", "answer", "language", "told"),
+    [
+        pytest.param("momentum:y", "10^-9*m*dot(y)", "en", r"$6 \cdot 10^{-10}$", id="a power of ten, no letter e"),
+        pytest.param("momentum:y", "12345678*m*dot(y)", "de", r"$7{,}407 \cdot 10^{6}$", id="with a decimal comma"),
+        pytest.param("equation:phi", "m*l*ddot(phi) = 0", "en", r"\ddot{q}_1 = 0$", id="nothing, without a sign"),
+    ],
+)
+def test_numbers_are_written_as_formulas_have_them(task: str, answer: str, language: str, told: str) -> None:
+    """6e-10 in a formula would be 6 e − 10."""
+    assert told in verdict("elastic-pendulum", task, answer, language)["feedback"]

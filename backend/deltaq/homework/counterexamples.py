@@ -124,10 +124,5 @@ def _shown(state: dict[str, float], parts: Parts, unknown: set[str]) -> dict[str
     return {name: value for name, value in state.items() if name in used}
 
 
-def rounded_text(value: float) -> str:
-    """A number with four significant digits, as a sentence tells it."""
-    return f"{value:.4g}"
-
-
 def _rounded(value: float) -> float:
-    return float(f"{value:.6g}")
+    return float(f"{value:.6g}") + 0.0  # no negative zero

@@ -11,9 +11,9 @@ from ..language.symbols import Symbols
 from ..language.sympy_algebra import to_sympy
 from ..mechanics.scene import Scene
 from ..narration.catalog import message, sentence, text
+from ..narration.matrix_writing import number_latex
 from ..narration.prose import CatalogText, formula, joined
 from ..narration.things import called
-from .counterexamples import rounded_text
 from .verdict import BlockTold, Counterexample, ShownReading, Slip, Verdict
 
 AXES = "xyz"
@@ -154,7 +154,7 @@ def _told(example: Counterexample, scene: Scene, language: str) -> CatalogText:
 
 def _number(value: float, language: str) -> str:
     """With the decimal sign of the language, as LaTeX."""
-    return rounded_text(value).replace(".", text(language, "homework.decimal"))
+    return number_latex(value, text(language, "homework.decimal"))
 
 
 def _about(verdict: Verdict, scene: Scene, language: str) -> dict[str, str | CatalogText]:

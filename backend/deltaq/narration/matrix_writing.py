@@ -83,7 +83,16 @@ def _column(rows: list[str]) -> str:
 
 
 def _number(value: sp.Expr) -> str:
-    mantissa, exponent = number_parts(value)
+    return _power(*number_parts(value))
+
+
+def number_latex(value: float, decimal: str = ".") -> str:
+    """A number with four digits as LaTeX, with a power of ten where it has one; zero without a sign."""
+    mantissa, _, exponent = f"{value + 0.0:.{DIGITS}g}".partition("e")
+    return _power(mantissa.replace(".", decimal), int(exponent or 0))
+
+
+def _power(mantissa: str, exponent: int) -> str:
     return rf"{mantissa} \cdot 10^{{{exponent}}}" if exponent else mantissa
 
 

@@ -17,6 +17,7 @@ from .aligned import aligned
 from .catalog import filled, template, text
 from .letters import Letters, in_sentence
 from .marks import without_classes
+from .matrix_writing import number_latex
 from .notation import Notation, in_classes
 from .prose import CatalogText, formula, joined, words
 from .roots import Roots, explained, named_roots, with_roots
@@ -158,7 +159,7 @@ class Narrator:
 
     def _name(self, key: str, value: str) -> CatalogText:
         if key == "rate":
-            return words(value.replace(".", ",") if self.language == "de" else value)
+            return formula(number_latex(float(value), "{,}" if self.language == "de" else "."))
         if key in WORDS:
             return joined("; ", (self._sentence(f"rules.words.{each}", {}) for each in value.split(", ") if each))
         if key != "coordinate":
