@@ -1,6 +1,7 @@
 import { strict as assert } from "node:assert";
 import { test } from "node:test";
 import { documentIn } from "../../frontend/model/own.js";
+import { degreesOf, freedomsOf } from "../../frontend/model/subject.js";
 import { scene, trajectory } from "./fixtures.js";
 import { derivation, failure, own, page, rest, settled } from "./server.js";
 
@@ -138,4 +139,17 @@ test("the address of a scene that is being written holds all of it", async () =>
   await session.address(own);
   assert.deepEqual(await documentIn(get().fragment), own);
   await settled();
+});
+
+test("coordinates less guides have equations; less constraints as well, they are degrees of freedom", () => {
+  for (const [guides, constraints, freedoms, degrees] of /** @type {[any, any, number, number][]} */ ([
+    [undefined, undefined, 2, 2],
+    [[{}], undefined, 1, 1],
+    [undefined, [{}], 2, 1],
+    [[], [], 2, 2],
+    [[{}], [{}], 1, 0],
+  ])) {
+    const counted = { coordinates: scene.coordinates, guides, constraints };
+    assert.deepEqual([freedomsOf(/** @type {any} */ (counted)), degreesOf(/** @type {any} */ (counted))], [freedoms, degrees]);
+  }
 });
