@@ -52,8 +52,14 @@ class Record:
     most: float = math.inf  # seconds that all tests of a mutant may take together, the quickest first
 
     def tests_for(self, mutant: Mutant) -> list[str]:
-        """The tests that can notice a fault, in the order in which they are to be asked."""
-        tests = in_turn(function_around(mutant.module, mutant.line), self.entries)
+        """The tests that can notice a fault, in the order in which they are to be asked.
+
+        What has run when the tests were read may matter to tests that do not enter it.
+        """
+        start = function_around(mutant.module, mutant.line)
+        tests = in_turn(start, self.entries)
+        if start in self.before:
+            tests += [test for test in in_turn(None, self.entries) if test not in tests]
         took = {test: seconds for one in self.entries for test, seconds in one.seconds.items()}
         totals = accumulate(took[test] for test in tests)
         return [test for test, total in zip(tests, totals, strict=True) if total <= self.most]

@@ -15,6 +15,7 @@ import pytest
 from tests.mutants.entries import Entries, Recorder, function_around, in_turn
 from tests.mutants.faults import mutants_of, sample
 from tests.mutants.replacing import Functions
+from tests.mutants.running import Record
 
 SOUND = '''"""Says 3 nowhere."""
 from __future__ import annotations
@@ -129,6 +130,18 @@ def test_a_fault_is_shown_to_the_tests_that_enter_its_function_the_quickest_firs
     assert in_turn(start, (one, two, three)) == ["d", "a", "e", "b", "c"]
     assert in_turn(other, (one, two, three)) == ["f", "b", "a", "c"]
     assert in_turn(None, (one, two, three)) == ["f", "b", "d", "a", "e", "c"]
+
+
+def test_a_fault_in_what_runs_when_modules_are_read_is_shown_to_all_tests(module: Path) -> None:
+    """A decorator's function, say: no test enters it, and whatever it has made may be wrong."""
+    mutant = next(one for one in mutants_of(module) if one.line == 6)
+    start, other = function_around(module, 6), (str(module), 9)
+    assert start is not None
+    entries = [Entries("one.py", {"a": {other}, "b": {start}, "c": set()}, {"a": 2.0, "b": 3.0, "c": 0.1})]
+    assert Record(entries, frozenset({other})).tests_for(mutant) == ["b", "a", "c"]
+    entries = [Entries("one.py", {"a": {other}, "c": set()}, {"a": 2.0, "c": 0.1})]
+    assert Record(entries, frozenset({other})).tests_for(mutant) == []
+    assert Record(entries, frozenset({start})).tests_for(mutant) == ["a", "c"]
 
 
 def test_what_a_test_enters_is_recorded(module: Path) -> None:
