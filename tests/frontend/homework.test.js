@@ -12,7 +12,7 @@ import { createExercise } from "../../frontend/model/homework/exercise.js";
 import { stepOf } from "../../frontend/model/homework/solution.js";
 import { framed, parting } from "../../frontend/model/homework/motions.js";
 import { readAsked, stepAddress, writeAsked } from "../../frontend/model/homework/place.js";
-import { BLANK, createProgress, draftOf, linesOf } from "../../frontend/model/homework/progress.js";
+import { apart, BLANK, createProgress, draftOf, linesOf } from "../../frontend/model/homework/progress.js";
 import { groupOf, pointsOf, referenceIn, sheetOfAssignment, sheetOfScene } from "../../frontend/model/homework/sheet.js";
 import { begin } from "../../frontend/model/homework/state.js";
 import { createTrail } from "../../frontend/model/homework/trail.js";
@@ -140,6 +140,16 @@ test("records lie in the browser under their names; a file has them in order, an
   assert.deepEqual(["a", "b", "c", "d"].map((key) => progress.who(key)), [{ name: "", id: "" }, { name: "", id: "" }, { name: "Ada", id: "" }, { name: "", id: "" }]);
   const broken = { ...keeper, get length() { throw new Error("closed"); } };
   assert.equal(createProgress(/** @type {any} */ (broken)).exported(), JSON.stringify({ format: "deltaq-homework-1", records: {} }, null, 1));
+});
+
+test("exercises without end lie in the window, all else where it lasts and is saved", () => {
+  const [lasting, window] = [storage({ kept: "1" }), storage()];
+  const progress = createProgress(apart(lasting, window));
+  progress.write("practice~pendulum", 1);
+  progress.write("pendulum", 2);
+  assert.deepEqual([[...lasting.kept.keys()], [...window.kept.keys()]], [["kept", "deltaq.homework.1/pendulum"], ["deltaq.homework.1/practice~pendulum"]]);
+  assert.deepEqual(JSON.parse(progress.exported()).records, { pendulum: 2 });
+  assert.equal(apart(lasting, window).getItem("deltaq.homework.1/practice~pendulum"), "1");
 });
 
 test("a file of two million letters is taken, one of more is not", () => {

@@ -20,6 +20,8 @@ L = sympy.Symbol("l", positive=True)
         pytest.param(sympy.cosh(1) - (sympy.E + 1 / sympy.E) / 2, (True, 12), id="e itself"),
         pytest.param(sympy.log(L**2) - 2 * sympy.log(L), (True, 12), id="logarithms"),
         pytest.param(sympy.cbrt(L**2 + 1) ** 3 - L**2, (False, 1), id="cube root"),
+        pytest.param(sympy.Heaviside(X**2 + L) - 1, (True, 12), id="a step that has come"),
+        pytest.param(sympy.Heaviside(X) + sympy.Heaviside(-X) - 1, (True, 12), id="steps forth and back"),
         pytest.param(sympy.S.Zero, (True, 12), id="zero itself"),
         pytest.param(sympy.sqrt(-1 - X**2), (None, 0), id="root of what is negative"),
         pytest.param(sympy.gamma(X), (None, 0), id="function without an interval"),

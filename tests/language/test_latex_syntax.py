@@ -156,6 +156,8 @@ ACCEPTED = [
     ("\\left|\\left(y-\\left|x\\right|\\right)\\right|", "abs(y - abs(x))"),
     ("|(|x|-y)|+|x|", "abs(x) + abs(y - abs(x))"),
     ("\\lvert x\\rvert", "abs(x)"),
+    ("\\left\\lvert x\\right\\rvert", "abs(x)"),
+    ("2\\left\\vert x\\right\\vert", "2*abs(x)"),
     ("\\operatorname{arctan}(x)", "atan(x)"),
     ("\\operatorname{atan2}(y, x)", "atan2(y, x)"),
     ("\\operatorname{sgn}(x)", "sign(x)"),
