@@ -19,7 +19,8 @@ pytestmark = pytest.mark.e2e
 
 TAGS = ["wcag2a", "wcag2aa", "wcag21a", "wcag21aa", "wcag22aa"]
 # Formulas on keys are symbols, not labels that could be spoken: understanding WCAG 2.5.3, "mathematical formulas".
-SYMBOLS = {"label-content-name-mismatch": ".key-cap"}
+# Handles of places are where these are, however close to each other: WCAG 2.5.8, "essential".
+SYMBOLS = {"label-content-name-mismatch": ".key-cap", "target-size": ".handle"}
 AXE = """async ([type, values, symbols]) => {
     const { violations } = await axe.run(document, { runOnly: { type, values } });
     const excused = (id, target) => symbols[id] && document.querySelector(target)?.matches(symbols[id]);
@@ -165,6 +166,12 @@ PLACES = [
     pytest.param("docs?", ".calls article", nothing, id="reference"),
     pytest.param("help?", ".guide article", nothing, id="help"),
     pytest.param("docs/try?", ".trial textarea", send, id="trial of the API"),
+    pytest.param(
+        "scene?scene=chaplygin-sleigh&view=lecture&step=augmented-system&at=1",
+        ".slide[data-filled] .katex",
+        nothing,
+        id="linear system in lecture mode",
+    ),
     pytest.param("problems/invalid-request?", ".top ~ .problem pre", nothing, id="problem"),
 ]
 DIALOGS = [
@@ -250,6 +257,13 @@ def test_phone(lecture: Lecture, axe: str, place: str) -> None:
     page.locator("main").wait_for()
     page.wait_for_load_state("networkidle")
     assert violations(page, axe) == []
+
+
+def test_the_page_at_a_lost_address(lecture: Lecture, axe: str) -> None:
+    """With the link to the page that was meant, in the dark and in the light."""
+    page = opened(lecture, "scenne?x=1", ".problem article a", "en")
+    assert violations_in_both_themes(page, axe) == []
+    lecture.complaints[:] = [one for one in lecture.complaints if "404" not in one]
 
 
 def test_the_projector_theme_has_contrast(lecture: Lecture, axe: str) -> None:

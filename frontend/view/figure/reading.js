@@ -36,7 +36,7 @@ export function createReading({ root, parts: { plots }, state, clock }) {
   let slots = [];
   /** The moment under the pointer. @type {number | null} */
   let pointed = null;
-  let [next, due] = [0, atMost(PAUSE)];
+  let [next, due, round] = [0, atMost(PAUSE), 0];
 
   /** @param {Curve} curve @param {(value: number) => string} write @param {HTMLElement} after @param {{top: number, bottom: number, place: (t: number, value: number) => number[]}} row @returns {Slot} */
   function slotOf(curve, write, after, { top, bottom, place }) {
@@ -96,8 +96,10 @@ export function createReading({ root, parts: { plots }, state, clock }) {
       for (const slot of slots) slot.write(t);
       for (const slot of slots) slot.put(t);
     } else if (due()) {
-      // One after the other: all at once would make a frame late.
-      slots[(next = (next + 1) % slots.length)].write(t);
+      // One after the other, as all at once would make a frame late; those of one round are of one moment.
+      if (next === 0) round = t;
+      slots[next].write(round);
+      next = (next + 1) % slots.length;
     }
   }
 
