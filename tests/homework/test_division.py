@@ -65,6 +65,43 @@ def test_only_what_the_right_equation_has_in_all_terms_is_divided_out(
     assert (verdict.outcome, verdict.remark) == (outcome, remark)
 
 
+SWING = "(sin(theta)*psi'' + 2*cos(theta)*theta'*psi')"
+SPHERE = {
+    "format": 1,
+    "id": "sphere",
+    "title": {"en": "On a sphere"},
+    "dimension": 3,
+    "coordinates": [{"name": "theta", "unit": "rad", "value": 0.5}, {"name": "psi", "unit": "rad", "value": 0.2}],
+    "parameters": [{"name": "m", "unit": "kg", "value": 1.0}, {"name": "R", "unit": "m", "value": 1.0}],
+    "bodies": [
+        {
+            "name": "bob",
+            "kind": "particle",
+            "mass": "m",
+            "position": ["R*sin(theta)*cos(psi)", "R*sin(theta)*sin(psi)", "R*cos(theta)"],
+        }
+    ],
+}
+
+
+@pytest.mark.parametrize(
+    ("answer", "outcome", "remark"),
+    [
+        (f"m*R^2*sin(theta)*{SWING} = 0", "correct", ""),
+        (f"{SWING} = 0", "correct", "divided"),
+        (f"{SWING}/sin(theta) = 0", "correct", "divided"),
+        (f"cos(theta)*{SWING} = 0", "wrong", "factor-vanishes"),
+        (f"{SWING}/cos(theta) = 0", "wrong", "factor-vanishes"),
+        (f"theta*{SWING} = 0", "wrong", "factor-vanishes"),
+    ],
+)
+def test_a_sine_may_be_divided_out_where_it_stands_in_all_terms(answer: str, outcome: str, remark: str) -> None:
+    """R² sin²θ ψ̈ + 2 R² sin θ cos θ θ̇ ψ̇ = 0 says nothing at both poles of the sphere."""
+    workbook = workbook_of({"scene": SPHERE})
+    verdict = check(workbook, workbook.task("equation:psi"), answer, "plain")
+    assert (verdict.outcome, verdict.remark) == (outcome, remark)
+
+
 def test_the_condition_is_told() -> None:
     asked = {"scene": SCENE, "task": "equation:theta", "answer": {"value": f"{TURN} = 0"}, "lang": "en"}
     assert r"$r \neq 0$" in check_request(asked)["feedback"]

@@ -170,8 +170,6 @@ class Division:
         return True
 
     def _has_regular_entries(self, far: Numbers, near: Numbers, scale: Sequence[Callable[[Numbers], float]]) -> bool:
-        if self._size == 1:
-            return True
         pairs = zip(self._entries(far, scale), self._entries(near, scale), strict=True)
         return all(abs(b) <= STEADY * max(abs(a), 1.0) for a, b in pairs)
 
