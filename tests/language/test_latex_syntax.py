@@ -157,7 +157,7 @@ ACCEPTED = [
     ("|(|x|-y)|+|x|", "abs(x) + abs(y - abs(x))"),
     ("\\lvert x\\rvert", "abs(x)"),
     ("\\left\\lvert x\\right\\rvert", "abs(x)"),
-    ("2\\left\\vert x\\right\\vert", "2*abs(x)"),
+    ("\\left\\vert x-\\left\\vert y\\right\\vert\\right\\vert", "abs(x - abs(y))"),
     ("\\operatorname{arctan}(x)", "atan(x)"),
     ("\\operatorname{atan2}(y, x)", "atan2(y, x)"),
     ("\\operatorname{sgn}(x)", "sign(x)"),
