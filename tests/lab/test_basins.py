@@ -12,6 +12,7 @@ from scipy.integrate import solve_ivp
 from tests.simulation.scenes import document
 
 from deltaq.errors import InputError
+from deltaq.lab.attractors import IN_VAIN, Stroboscope
 from deltaq.lab.library import get_experiment
 from deltaq.lab.uncertain_boundary import DISTANCES, boundary_of, wilson
 
@@ -185,6 +186,17 @@ def test_a_pendulum_that_is_turned_rotates_or_rests(torque: float, kinds: set[bo
             events=lambda _t, s: math.sin(s[0] / 2.0),
         )
         assert one["period"] == pytest.approx(run.t_events[0][-1] - run.t_events[0][-2], rel=1e-5)
+
+
+def test_motions_too_slow_to_settle_are_not_all_looked_at(monkeypatch: pytest.MonkeyPatch) -> None:
+    """In a tenth of a second nothing moves far: each of 1,024 motions seems to rest where it is, in each of 4 spans."""
+    tried: list[object] = []
+    monkeypatch.setattr(Stroboscope, "attractor", lambda self, start, periods: tried.append(start))
+    monkeypatch.setattr(Stroboscope, "cycle", lambda self, start: None)
+    with pytest.raises(InputError, match="basins-none"):
+        ask(scene=line("0*x", c=0.0), **SQUARE, t_end=0.1, count=32)
+    stages, spans = 4, 4
+    assert IN_VAIN < len(tried) <= stages * spans * IN_VAIN
 
 
 def test_an_angle_is_the_same_after_a_turn() -> None:

@@ -28,6 +28,7 @@ SETTLED = 0.02  # of what the motions cover: change after a period
 NEWTON, SOLVED = 8, 1e-9
 BELOW = 1e-6  # 1 less a multiplier that contracts
 MOST, MOST_WITHOUT = 16, 12  # attractors; motions near which no closed orbit is found, in vain
+IN_VAIN = 24  # looks one after the other that find none, until the motions go on: slow ones seem to settle anywhere
 TOLERANCE = 1e-8
 NONE, ENDED = -1, -2
 AGAIN = 3  # times that what has not settled goes on
@@ -163,14 +164,15 @@ class Search:
 
     def _assigned(self, states: Floats) -> Integers:
         """By the attractors known, then by those that the rest leads to."""
-        found = self._nearest(states)
+        found, in_vain = self._nearest(states), 0
         for place in np.flatnonzero(found == NONE):
-            if found[place] != NONE or len(self.attractors) >= MOST:
+            if found[place] != NONE or len(self.attractors) >= MOST or in_vain >= IN_VAIN:
                 continue
             if self._is_refused(states[place, -1]):
                 continue
+            in_vain += 1
             if self._look(states[place]):
-                found = np.where(found == NONE, self._nearest(states), found)
+                found, in_vain = np.where(found == NONE, self._nearest(states), found), 0
         return found
 
     def _look(self, states: Floats) -> bool:
