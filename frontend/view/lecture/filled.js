@@ -8,7 +8,7 @@ import { refit } from "../formula.js";
 /** @typedef {{dense: string, place: string, close: boolean, brief: boolean}} Arranged */
 
 /** What is estimated may be a little off: then all of it becomes smaller by as much as it is too high, and at least by this, so many times. */
-const SMALLER = 0.99;
+const SMALLER = 0.9985;
 const TRIES = 8;
 /** So many times, two frames each, rows are waited for that are not typeset yet, or are still wider than their place. */
 const PATIENCE = 20;
