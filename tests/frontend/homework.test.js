@@ -138,6 +138,11 @@ test("records lie in the browser under their names; a file has them in order, an
   assert.equal(keeper.getItem("deltaq.homework.1/c"), '{"name":"Ada","id":7}');
   assert.equal(progress.exported(), JSON.stringify({ format: "deltaq-homework-1", records: { a: null, b: 2, c: { name: "Ada", id: 7 } } }, null, 1));
   assert.deepEqual(["a", "b", "c", "d"].map((key) => progress.who(key)), [{ name: "", id: "" }, { name: "", id: "" }, { name: "Ada", id: "" }, { name: "", id: "" }]);
+  progress.write("d", { name: 7, id: "4711" });
+  assert.deepEqual(progress.who("d"), { name: "", id: "4711" });
+  const line = { task: "lagrangian", syntax: "plain", value: "T - V" };
+  progress.write("e", [line, 3]);
+  assert.deepEqual([progress.lines("e"), progress.lines("d")], [[line], []]);
   const broken = { ...keeper, get length() { throw new Error("closed"); } };
   assert.equal(createProgress(/** @type {any} */ (broken)).exported(), JSON.stringify({ format: "deltaq-homework-1", records: {} }, null, 1));
 });
