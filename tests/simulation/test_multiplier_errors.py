@@ -4,13 +4,11 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from tests.simulation import multiplier_errors
 from tests.simulation.bound_kinds import KINDS, SKATE, TURNED
 from tests.simulation.bound_motions import Kind
 from tests.simulation.multiplier_errors import Compared, compared
 from tests.simulation.test_impacts_with_constraints import G, dumbbell, hung, moved
 
-DOUBLE = next(kind for kind in KINDS if len(kind.multipliers) == 2 and kind.name == "double pendulum")
 OTHERS = [kind for kind in KINDS if kind not in (SKATE, TURNED)]
 
 
@@ -33,15 +31,6 @@ def test_so_are_those_of_other_kinds(kind: Kind) -> None:
     found = judged(kind)
     assert found
     assert [each for each in found if each.short > 10.0 or each.excess > 100.0] == []
-
-
-def test_rods_that_are_bound_to_each_other_have_no_errors_that_add_up(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Σ |∂λ/∂y| |Δy| says up to three times what is left of it in a rod of a double pendulum."""
-    monkeypatch.setattr(multiplier_errors, "METHODS", ("radau-5", "auto"))
-    found = list(compared(DOUBLE, "fresh3", 7))
-    assert len(found) >= 10
-    assert max(each.short for each in found) <= 1.0
-    assert max(each.excess for each in found) <= 100.0
 
 
 def test_errors_are_told_in_every_mode() -> None:

@@ -23,7 +23,6 @@ from .stiffness import NUDGE
 
 # Neighbourhoods as parts of all samples to each side, and what counts of the wider one.
 NEAR, FAR, SHARE = 160, 10, 0.5
-AROUND = 40  # the part of all samples to each side in which the part of an error that is left in λ is the largest
 SLOPES = 160  # samples at which the slopes of multipliers are taken
 ANYWHERE = 0.1  # what counts of the largest before and behind, wherever it is
 TURNING = 4.0  # times the largest difference nearby: more than that no phase hides where a motion turns back
@@ -84,7 +83,8 @@ def estimate(problem: Problem, coarse: Run, fine: Run, factor: float) -> Estimat
     doubts = np.vstack([errors, np.maximum(spread[n:], floor)])
     of_event = _of_event(problem, coarse, fine, factor, doubts[:, -1])
     doubtful = _doubtful(problem, coarse, fine, times, doubts)
-    reactions = _of_multipliers(problem, coarse, fine, factors, difference[: 2 * n])
+    spreads = _spread(factors * difference[: 2 * n] + np.minimum(difference[: 2 * n], CLOSE))
+    reactions = _of_multipliers(problem, coarse, fine, spreads, factors)
     return Estimate(errors.max(axis=0), worst, horizon, of_event, stop, doubtful, reactions)
 
 
@@ -136,46 +136,27 @@ def with_rounding(problem: Problem, found: Estimate, fine: Run, other: Run) -> E
     return replace(found, errors=errors, worst=worst, multipliers=reactions)
 
 
-def _of_multipliers(problem: Problem, coarse: Run, fine: Run, factors: Floats, difference: Floats) -> Floats | None:
+def _of_multipliers(problem: Problem, coarse: Run, fine: Run, doubts: Floats, factors: Floats) -> Floats | None:
     """The error of each multiplier, shape (samples, m); None where there are none.
 
-    λ follows from q and q̇ without any integration: its error is a part of Σ |∂λ/∂y| times theirs. Errors of coordinates
-    that are bound to each other cancel in λ, and λ may not depend on what is wrong, such as a direction: how large a
-    part is left the two runs tell, by their λ and by their `difference` in y, shape (2n, samples). Where λ peaks, as in
-    a rod that whips round, it may be a hundred times what it is in between, so that a difference of two λ spread over a
-    neighbourhood would say too much there; but no sum says more than the largest difference nearby bears out. Rounding
-    is that of the state, and of the terms that λ is left of, about as large as the largest one.
+    λ follows from q and q̇ without any integration: its error is Σ |∂λ/∂y| times theirs, `doubts`, shape (2n, samples).
+    Where λ peaks, as in a rod that whips round, it may be a hundred times what it is in between, so that a difference
+    of two λ spread over a neighbourhood would say too much there; but no sum says more than the largest difference
+    nearby bears out, for λ may not depend on what is wrong, such as a direction. Rounding is that of the state, and of
+    the terms that λ is left of, about as large as the largest one.
     """
     if fine.reactions is None or coarse.reactions is None:
         return None
-    found, other, doubts = fine.reactions.multipliers.T, coarse.reactions.multipliers.T, _near(factors, difference)
+    found, other = fine.reactions.multipliers.T, coarse.reactions.multipliers.T
     count = min(found.shape[1], other.shape[1], doubts.shape[1])
     found, other = found[:, :count], other[:, :count]
     largest = np.abs(found).max(axis=1, initial=0.0)[:, None]
     rounding = OF_TERMS * largest / np.sqrt(fine.conditioning) if fine.conditioning > 0.0 else np.inf
     slopes, apart = _slopes(problem, fine, count), np.abs(other - found)
     differences = factors[:count] * apart + np.minimum(apart, CLOSE * largest)
-    parts = _left(apart, _summed(slopes, difference[:, :count]))
-    left = _largest_within(parts, max(2, count // AROUND)) * _summed(slopes, doubts)
-    errors = np.minimum(left, TURNING * _largest_within(differences, max(2, count // FAR)))
+    errors = np.minimum(_summed(slopes, doubts), TURNING * _largest_within(differences, max(2, count // FAR)))
     own = _summed(slopes, OF_STATE * np.abs(fine.states[:count, : doubts.shape[0]].T))
     return _known(np.maximum(errors, np.maximum(own, rounding))).T
-
-
-def _near(factors: Floats, difference: Floats) -> Floats:
-    """The errors of y where they count for λ, shape (2n, samples): of these a neighbourhood does not have the largest.
-
-    It is where λ peaks that they are largest, too.
-    """
-    errors = factors * difference + np.minimum(difference, CLOSE)
-    return np.maximum(_largest_within(errors, max(2, errors.shape[1] // NEAR)), ANYWHERE * _spread(errors))
-
-
-def _left(apart: Floats, summed: Floats) -> Floats:
-    """The part of Σ |∂λ/∂y| |Δy|, `summed`, that is left in the difference of two λ, `apart`: shape (m, samples)."""
-    with np.errstate(invalid="ignore", over="ignore"):
-        parts = np.divide(apart, summed, out=np.where(apart > 0.0, 1.0, 0.0), where=summed > 0.0)
-    return np.asarray(np.minimum(np.nan_to_num(parts, nan=1.0), 1.0))
 
 
 def _slopes(problem: Problem, fine: Run, count: int) -> Floats:
