@@ -34,6 +34,7 @@ BLOCK = 64  # motions between which it is looked for others that may go on
 ROUNDS = 3  # of a smaller local tolerance for those that missed theirs
 LOST = 0.5  # an error this large, relative to the size of the coordinate, leaves no digit
 ROUNDING = 2.0**-51
+MARGIN = 2.0  # of the factor for one motion: of many with two runs each, some come close to each other by chance
 SCHEME = Series(8)
 AHEAD = 0.1  # the first local tolerance over the tolerance
 # That of the finer run over that of the coarser: with 0.1 a seventh is saved, and one estimate of eight falls short
@@ -137,7 +138,7 @@ def _pair(
     refinement = _refinement(ensemble)
     coarse, fine = refinement.pair(resolution, Pieces.whole(ensemble.problem.t_end))
     runs = _run(ensemble, coarse, flag, tell), _run(ensemble, replace(fine, is_nudged=True), flag, lambda _done: None)
-    return _judged(ensemble, *runs, refinement.factor_of_answer(coarse, fine), tolerance)
+    return _judged(ensemble, *runs, MARGIN * refinement.factor_of_answer(coarse, fine), tolerance)
 
 
 def _run(ensemble: Ensemble, steps: Steps, flag: Flag, tell: Callable[[int], None]) -> Members:
