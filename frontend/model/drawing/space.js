@@ -1,7 +1,7 @@
 /** The angles of spherical coordinates, drawn in space and seen as everything in it: from the vertical, and round it. */
 
 import { add, arrowHead, at as pixel, line, polyline, scaled, subtract, unit, wrapped } from "./geometry.js";
-import { massOf } from "./members.js";
+import { massOf } from "./bodies.js";
 import { aboutArc, tipBox } from "./marks.js";
 import { boxAbout } from "./placing.js";
 import { coordinateClass, latexOf, marked, sizeOf } from "./stage.js";
