@@ -122,6 +122,7 @@ def test_statements_and_hints_say_what_constraints_do(language: str) -> None:
     for name in ("impulse:c1", "momentum-behind:c2:y", "equilibria"):
         assert r"\sqrt{x^{2} + y^{2}} = 0" in told[name]["statement"]
         assert any(each in told[name]["hints"][1] for each in (r"\Lambda_c", r"\lambda_c"))
+    assert {"de": "jeder Kontakt offen", "en": "every contact open"}[language] in told["equilibria"]["statement"]
     assert r"\Delta p_i" not in told["impulse:c1"]["statement"]
     assert told["momentum-behind:c2:y"]["title"] != told["momentum-behind:y"]["title"]
     assert told["momentum-behind:c2:y"]["solution"]["steps"][0] == "impact-law:c2"

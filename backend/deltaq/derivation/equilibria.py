@@ -77,6 +77,11 @@ class Search:
     left_out: str = ""
     beyond: int = 0
 
+    @property
+    def is_complete_off_contacts(self) -> bool:
+        """Whether these are all equilibria that touch no contact."""
+        return self.complete or self.left_out == "contacts"
+
 
 @dataclass(frozen=True)
 class _Part:

@@ -54,10 +54,12 @@ def _conserved(task: Task, workbook: Workbook, language: str) -> Texts:
 
 
 def _equilibria(_task: Task, workbook: Workbook, language: str) -> Texts:
-    """The coordinates that have a value in an equilibrium."""
+    """The coordinates that have a value in an equilibrium; and that no contact is to be closed, where there are any."""
     wanted = positions.asked(workbook.solution)[0].values
-    names = joined(", ", (label(q.name, workbook.scene, language) for q in wanted))
-    return {"coordinates": names}
+    told = {"coordinates": joined(", ", (label(q.name, workbook.scene, language) for q in wanted))}
+    if any(event.bounces for event in workbook.scene.events):
+        told["contacts"] = text(language, "homework.open-contacts")
+    return told
 
 
 def _stability(task: Task, workbook: Workbook, _language: str) -> Texts:

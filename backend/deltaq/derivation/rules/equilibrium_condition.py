@@ -66,7 +66,7 @@ def _outcome_of_none(system: System, known: Search | None) -> str:
 
 def _is_everywhere(known: Search) -> bool:
     """Whether all positions that touch no contact have been looked at."""
-    return (known.complete or known.left_out == "contacts") and not known.ranges
+    return known.is_complete_off_contacts and not known.ranges
 
 
 def _outcome_with_constraints(system: System) -> str:

@@ -58,10 +58,13 @@ ANY = re.compile(r"\b(?:beliebig|arbitrary|any|frei|free)\b")
 
 
 def asked(solution: Solution) -> tuple[Equilibrium, ...]:
-    """The equilibria, if all are known, isolated but for coordinates that may have any value, and few enough."""
+    """The equilibria with all contacts open, if all are known, few enough, and isolated.
+
+    But for coordinates that may have any value.
+    """
     model = solution.model
     search = search_of(model)
-    if search is None or not search.complete or not 0 < search.count == len(search.found) <= MOST:
+    if search is None or not search.is_complete_off_contacts or not 0 < search.count == len(search.found) <= MOST:
         return ()
     if any(linear.band is not None for linear in motions_of(model)) or (model.conditions and frictions(model)):
         return ()  # dry friction holds it beside them, too
