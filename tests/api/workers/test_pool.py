@@ -545,7 +545,7 @@ async def test_everyone_who_shares_a_computation_waits_for_his_own_time(
 
 
 async def test_a_late_one_is_not_refused_once_the_task_has_begun(make_pool: MakePool, tmp_path: Path) -> None:
-    pool, flights, doors = make_pool(1, queue_timeout=0.3), Flights(), [tmp_path / "first", tmp_path / "second"]
+    pool, flights, doors = make_pool(1, queue_timeout=1.5), Flights(), [tmp_path / "first", tmp_path / "second"]
     holding = await held(pool, doors[0])
 
     async def ask() -> bytes:
@@ -557,6 +557,6 @@ async def test_a_late_one_is_not_refused_once_the_task_has_begun(make_pool: Make
     late = asyncio.create_task(ask())
     doors[0].touch()
     await holding
-    await asyncio.sleep(0.5)
+    await asyncio.sleep(1.7)  # longer than anybody waits in the queue
     doors[1].touch()
     assert await asyncio.gather(first, late) == [b'"open"', b'"open"']
