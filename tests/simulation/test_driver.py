@@ -312,6 +312,21 @@ def test_motions_that_come_nowhere_are_given_up_early(name: str, method: str) ->
         np.testing.assert_array_equal(found.values[0], problem.values)
 
 
+def test_a_motion_that_slows_down_is_not_given_up() -> None:
+    """x″ = −(W/(t + ε))² x turns evenly in the logarithm of time: x = s^½ cos(κ ln s), s = (t + ε)/ε, κ² = W² − ¼."""
+    rate, late = 2e4, 1e-3
+    slowing = scene(
+        {"x": (1.0, 0.5 / late)}, {"m": 1.0, "W": rate, "c": late}, {"p": ("m", ["x", "0"])},
+        [{"kind": "force", "name": "spring", "at": "p", "force": ["-m*W^2*x/(t + c)^2", "0"]}],
+    )  # fmt: skip
+    problem = problem_of(slowing, 10.0, 11)
+    found = simulate(problem, get_method("dop853"), tolerance=1e-3)
+    assert found.outcome.status == "ok"
+    assert found.cost.steps > problem.step_limit / 16
+    s = (found.times + late) / late
+    np.testing.assert_allclose(found.values[:, 0], np.sqrt(s) * np.cos(np.sqrt(rate**2 - 0.25) * np.log(s)), atol=0.1)
+
+
 def test_where_equations_end_no_run_looks_twice() -> None:
     """A mass of 1e-20 kg between two rods has no acceleration of its own when they are in line."""
     of = load_scene("double-pendulum-by-rods")

@@ -8,7 +8,7 @@ import sympy as sp
 
 from ..language.derivatives import diff
 from ..language.memory import cached_method
-from .released import accelerations
+from .accelerations import accelerations
 from .system import System
 
 MOST_CYCLIC = 2

@@ -15,15 +15,11 @@ from functools import cached_property
 import sympy as sp
 
 from ..language.display import size
-from ..language.memory import cached_method
 from ..mechanics.release import held, released
 from ..vocabulary import HoldKind
-from .matrix_form import forcing, left_side, mass_matrix
-from .multipliers import multipliers
+from .accelerations import LONGEST, accelerations
+from .matrix_form import left_side
 from .system import System
-
-MOST_COORDINATES = 3
-LONGEST = 300  # parts of an expression that is still read
 
 
 @dataclass(frozen=True, eq=False)
@@ -82,25 +78,3 @@ class Release:
     def value(self) -> sp.Expr:
         """Z without accelerations where it can be had, else with them."""
         return self.in_motion if self.closed is None else self.closed
-
-
-@cached_method
-def accelerations(system: System) -> dict[sp.Symbol, sp.Expr] | None:
-    """q̈(q, q̇, t), and the multipliers where there are constraints; None where they would be too long."""
-    if system.conditions:
-        found = multipliers(system)
-        if found is None:
-            return None
-        solved = {a: system.display(value.xreplace(found.values)) for a, value in found.accelerations.items()}
-        return {**solved, **found.values}
-    if len(system.free) > MOST_COORDINATES:
-        return None
-    mass, loads = mass_matrix(system), forcing(system)
-    determinant = system.display(mass.det(method="berkowitz"))
-    if determinant == 0 or sum(map(size, (*mass, *loads))) > LONGEST:
-        return None
-    solution = mass.adjugate() * loads
-    return {
-        system.acceleration(q): system.display(value / determinant)
-        for q, value in zip(system.free, solution, strict=True)
-    }

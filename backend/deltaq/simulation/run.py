@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
-from math import log2
 from time import perf_counter
 
 import numpy as np
@@ -28,6 +27,7 @@ APART = 1e-6  # of the distance between two samples; the last one before an even
 
 PART = 16  # of the steps that are allowed: after so large a part it is looked whether the end is within reach
 REACH = 0.1  # of the span: motions that would not come so far are given up
+LONGER = 2.1  # times the time of half of the steps: more than twice, by more than chance, and steps become longer
 SHORT = 100_000  # right-hand sides; the time for so many is about that of compiling thoroughly
 
 
@@ -132,40 +132,35 @@ def run(problem: Problem, method: Method, times: Floats, cancelled: Flag, steps:
     shortest = limit * stages <= SHORT
     known = float(times[-1]) / steps.size * steps.ratio * stages if steps.tolerance == 0.0 else 0.0
     if shortest or not (model.is_thorough or max(known, model.usage.evaluations) > SHORT):
-        found = _limited(problem, method, times, cancelled, steps, min(SHORT // stages, limit), is_long=False)
+        few = replace(problem, step_limit=min(SHORT // stages, limit))
+        found = _run(few, method, times, cancelled, steps, is_long=False)
         model.usage.evaluations += found.result.evaluations
         if shortest or found.result.outcome not in (STEP_LIMIT, STIFF):
             return found
-    elif steps.tolerance > 0.0 and limit // PART * stages > SHORT:
-        found = _limited(problem, method, times, cancelled, steps, limit // PART, is_long=True)
+    if steps.tolerance > 0.0 and limit // PART * stages > SHORT:
+        found = _limited(problem, method, times, cancelled, steps)
         if found.result.outcome != STEP_LIMIT:
             return found
     return _run(problem, method, times, cancelled, steps, is_long=True)
 
 
-def _limited(
-    problem: Problem, method: Method, times: Floats, cancelled: Flag, steps: Steps, limit: int, *, is_long: bool
-) -> Run:
-    """A run of so many steps at most; OUT_OF_REACH if even all that the problem allows would bring it nowhere.
+def _limited(problem: Problem, method: Method, times: Floats, cancelled: Flag, steps: Steps) -> Run:
+    """A run of a part of the steps; OUT_OF_REACH if even all that the problem allows would bring it nowhere.
 
-    How the time that it comes to grows with the steps, as a power of their number, half of them tell as well.
+    That is, where steps do not become longer, as half of them tell: a motion that slows down may yet come to the end.
     """
+    part, span = problem.step_limit // PART, float(times[-1] - times[0])
 
     def once(most: int) -> Run:
-        return _run(replace(problem, step_limit=most), method, times, cancelled, steps, is_long=is_long)
+        return _run(replace(problem, step_limit=most), method, times, cancelled, steps, is_long=True)
 
-    found = once(limit)
-    if found.result.outcome != STEP_LIMIT or steps.tolerance == 0.0 or limit == problem.step_limit:
+    found = once(part)
+    gone = float(found.result.reached - times[0])
+    if found.result.outcome != STEP_LIMIT or not 0.0 < PART * gone < REACH * span:
         return found
-    span = float(times[-1] - times[0])
-    gone, left = float(found.result.reached - times[0]), problem.step_limit / limit
-    if not 0.0 < gone < REACH * span:
-        return found
-    half = float(once(limit // 2).result.reached - times[0])
-    power = max(log2(gone / half), 1.0) if half > 0.0 else np.inf
-    if log2(gone) + power * log2(left) >= log2(REACH * span):
-        return found
-    return replace(found, result=found.result._replace(outcome=OUT_OF_REACH))
+    half = float(once(part // 2).result.reached - times[0])
+    is_steady = gone <= LONGER * half
+    return replace(found, result=found.result._replace(outcome=OUT_OF_REACH)) if is_steady else found
 
 
 def _run(problem: Problem, method: Method, times: Floats, cancelled: Flag, steps: Steps, *, is_long: bool) -> Run:

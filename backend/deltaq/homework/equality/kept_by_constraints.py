@@ -12,8 +12,8 @@ from collections.abc import Iterator, Sequence
 
 import sympy as sp
 
+from ...derivation.accelerations import accelerations
 from ...derivation.compiled import compiled_together
-from ...derivation.released import accelerations
 from ...language.memory import cached_method
 from ..sampling import DISTINCT, Sampler, close, defined
 from ..solution import Solution
