@@ -237,6 +237,15 @@ def test_the_whole_verdict(scene: str, task: str, answer: str, verdict: Verdict)
     assert check(workbook, workbook.task(task), answer, "plain") == verdict
 
 
+@pytest.mark.parametrize("task", ["kinetic-energy", "equilibria", "stability:1"])
+def test_an_answer_that_is_too_long_is_told_from_where_on(task: str) -> None:
+    """2000 characters are read, by whatever judge."""
+    workbook = workbook_of({"scene": "pendulum"})
+    told = Problem("too-long", offset=2000, length=3, parameters={"length": 2003, "limit": 2000})
+    assert check(workbook, workbook.task(task), "(".ljust(2003, "0"), "plain") == Verdict("invalid", problems=(told,))
+    assert check(workbook, workbook.task(task), "(".ljust(2000, "0"), "plain").problems[0].code != "too-long"
+
+
 def test_terms_are_told_in_the_syntax_of_the_answer() -> None:
     workbook = workbook_of({"scene": "pendulum"})
     verdict = check(workbook, workbook.task("kinetic-energy"), r"\frac{m}{2}\dot\varphi^2 + m g", "latex")

@@ -65,6 +65,36 @@ def test_only_what_the_right_equation_has_in_all_terms_is_divided_out(
     assert (verdict.outcome, verdict.remark) == (outcome, remark)
 
 
+NUMBERS = {
+    **SCENE,
+    "id": "of-numbers",
+    "parameters": [{"name": "g", "unit": "m/s^2", "value": 9.81}],
+    "bodies": [{"name": "bob", "kind": "particle", "mass": "2", "position": ["r*sin(theta)", "r*cos(theta)"]}],
+    "loads": [{"name": "weight", "kind": "gravity", "acceleration": ["0", "g"]}],
+}
+
+
+@pytest.mark.parametrize(
+    ("task", "answer", "outcome", "remark"),
+    [
+        ("equation:theta", f"2*r*{TURN} = 0", "correct", ""),
+        ("equation:theta", f"{TURN} = 0", "correct", "divided"),
+        ("equation:theta", f"{TURN}/r^2 = 0", "correct", "divided"),
+        ("equation:theta", f"r*{TURN}/sin(theta) = 0", "wrong", "factor-vanishes"),
+        ("equation:theta", f"r^2*{TURN} = 0", "wrong", "factor-vanishes"),
+        ("equation:r", "r'' = r*theta'^2 + g*cos(theta)", "correct", ""),
+        ("equation:r", "r*(r'' - r*theta'^2 - g*cos(theta)) = 0", "wrong", "factor-vanishes"),
+    ],
+)
+def test_a_coordinate_is_divided_out_where_no_parameter_stands_before_it(
+    task: str, answer: str, outcome: str, remark: str
+) -> None:
+    """The mass is a number: the matrix of the equations holds nothing but r."""
+    workbook = workbook_of({"scene": NUMBERS})
+    verdict = check(workbook, workbook.task(task), answer, "plain")
+    assert (verdict.outcome, verdict.remark) == (outcome, remark)
+
+
 SWING = "(sin(theta)*psi'' + 2*cos(theta)*theta'*psi')"
 SPHERE = {
     "format": 1,

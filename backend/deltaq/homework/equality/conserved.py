@@ -32,14 +32,14 @@ def same(given: Parts, right: Parts, solution: Solution) -> Match:
     return Match(equal, "multiple" if equal and not is_zero(own - true, solution.symbols) else "")
 
 
-def _moving(value: sp.Expr, solution: Solution) -> list[sp.Symbol]:
+def _moving(value: sp.Basic, solution: Solution) -> list[sp.Symbol]:
     return sorted(value.free_symbols - {solution.q(p.name) for p in solution.scene.parameters}, key=str)
 
 
 def _factor(given: sp.Expr, right: sp.Expr, solution: Solution) -> sp.Expr | None:
     """given = factor · right + constant: the ratio of slopes at one state, an expression in the parameters."""
     for symbol in _moving(right, solution):
-        state = {s: sp.Rational(7 + k, 11) for k, s in enumerate(_moving(given * right, solution))}
+        state = {s: sp.Rational(7 + k, 11) for k, s in enumerate(_moving(sp.Tuple(given, right), solution))}
         above, below = (value.diff(symbol).xreplace(state) for value in (given, right))
         if is_zero(below, solution.symbols) is False:
             return None if is_zero(above, solution.symbols) is not False else above / below

@@ -9,6 +9,7 @@ from __future__ import annotations
 import math
 import random
 from collections.abc import Iterator, Sequence
+from itertools import islice
 
 import sympy as sp
 
@@ -106,15 +107,16 @@ def _states(solution: Solution) -> tuple[dict[sp.Symbol, int], tuple[Row, ...]]:
     found = accelerations(model) or {}
     moving = [found[model.acceleration(q)] for q in free if model.acceleration(q) in found]
     further = compiled_together(moving, symbols)
-    states: list[Row] = []
-    for _ in range(ATTEMPTS):
-        state = _start(solution, source)
-        bent = _moved(state, positions, known[: len(free)], symbols)
-        kept = bent and _moved(bent, rates, known[len(free) : 2 * len(free)], symbols)
-        if kept and len(states) < STATES:
-            states.append([*kept, *further(kept)])
     places = {model.acceleration(q): len(known) + i for i, q in enumerate(free[: len(moving)])}
-    return {**symbols, **places}, tuple(states)
+
+    def moved() -> Iterator[Row]:
+        for _ in range(ATTEMPTS):
+            bent = _moved(_start(solution, source), positions, known[: len(free)], symbols)
+            kept = bent and _moved(bent, rates, known[len(free) : 2 * len(free)], symbols)
+            if kept:
+                yield [*kept, *further(kept)]
+
+    return {**symbols, **places}, tuple(islice(moved(), STATES))
 
 
 def _parameters(solution: Solution) -> list[str]:
