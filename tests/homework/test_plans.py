@@ -310,6 +310,19 @@ def test_of_several_misconceptions_the_likeliest_is_named() -> None:
     assert (found["misconception"], found["mistake"]) == ("gravity-sign", "Sign of the weight")
 
 
+@pytest.mark.parametrize(
+    ("task", "answer", "mistake"),
+    [
+        pytest.param(KINETIC, "M*x'^2 + {}/2", "Faktor der kinetischen Energie von Wagen", id="a body"),
+        pytest.param(KINETIC, "M*x'^2/2 + {}", "Faktor der kinetischen Energie von Masse", id="another body"),
+    ],
+)
+def test_a_mistake_in_one_body_names_it_in_the_row(task: str, answer: str, mistake: str) -> None:
+    value = answer.format("m*(x'^2 + 2*l*x'*phi'*cos(phi) + l^2*phi'^2)")
+    question = {"scene": "cart-pendulum", "task": task, "answer": {"value": value}, "standing": [], "lang": "de"}
+    assert row_verdict(question)["mistake"] == mistake
+
+
 def test_what_cannot_be_asked_of_the_scene_is_told_in_the_row() -> None:
     question = {"scene": "swing", "task": KINETIC, "answer": {"value": T}, "standing": [], "lang": "de"}
     found = row_verdict(question)
