@@ -148,6 +148,17 @@ def test_equilibria_are_where_the_scene_holds(scene: Scene, places: list[str], o
     assert told == outcomes
 
 
+@pytest.mark.parametrize(
+    ("language", "title"), [("de", "Lagen, die nicht zählen"), ("en", "Positions that do not count")]
+)
+def test_positions_where_the_scene_does_not_hold_are_told_under_a_title_of_their_own(language: str, title: str) -> None:
+    """They are not something that is missing."""
+    behind = write_scene(watched("-k*x", value="x - h"))
+    told = derive_request({"scene": behind, "lang": language})["chapters"]
+    titles = {step["id"]: str(step["title"]) for chapter in told for step in chapter["steps"]}  # type: ignore[attr-defined]
+    assert titles["left-out:equilibria"] == title
+
+
 def test_a_string_does_not_stand_on_its_head() -> None:
     """l φ̇² + g cos φ > 0 is what keeps it taut."""
     assert found(load_scene("string-pendulum")) == [({"phi": "0"}, "stable")]

@@ -253,7 +253,7 @@ def test_what_a_step_rests_on_stands_above_it(hall: Lecture) -> None:
     expect(given.locator(".from")).to_have_text(["6.7", "7.1"])
     names = [one.get_attribute("aria-label") or "" for one in given.locator(".formula").all()]
     assert names[1].startswith("capital L equals")
-    expect(page.locator(".slide .legend .term-sign-turned")).to_be_in_viewport()
+    expect(page.locator(".slide .meanings .term-sign-turned")).to_be_in_viewport()
     given.locator("summary").click()
     expect(given.locator(".formula").first).to_be_hidden()
     page.keyboard.press("w")

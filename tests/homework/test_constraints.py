@@ -26,8 +26,10 @@ ANSWERS = [
     pytest.param("particle-on-a-circle", "equation:x", "m*ddot(x) = 2*lambda*x", "correct", None),
     pytest.param("particle-on-a-rod", "constraint-force:rod", "m*(dot(x)^2 + dot(y)^2 + g*y)/l", "correct", None),
     pytest.param("particle-on-a-rod", "constraint-force:rod", "S = -m*l*ddot(x)/x", "correct", None),
-    pytest.param("particle-on-a-rod", "constraint-force:rod", "m*g*y/l", "wrong", None, id="at rest only"),
-    pytest.param("particle-on-a-rod", "constraint-force:rod", "-m*(dot(x)^2 + dot(y)^2 + g*y)/l", "wrong", None),
+    pytest.param("particle-on-a-rod", "constraint-force:rod", "m*g*y/l", "wrong", "drift-forgotten", id="at rest only"),
+    pytest.param(
+        "particle-on-a-rod", "constraint-force:rod", "-m*(dot(x)^2 + dot(y)^2 + g*y)/l", "wrong", "reaction-sign"
+    ),
     pytest.param("sleigh", "equation:x", f"{SLEIGH} + lambda*sin(phi) = 0", "correct", None),
     pytest.param("sleigh", "equation:x", f"{SLEIGH} = 0", "wrong", "reaction-forgotten"),
     pytest.param(

@@ -9,11 +9,13 @@ from tests.homework.test_impacts_with_constraints import WALLS
 from tests.homework.wrong_answers import SHORT, assert_hints_are_whole, assert_mistakes_are_found
 
 from deltaq.homework.faulty_solution import misconceptions
+from deltaq.homework.hall import asked_of_halls
 from deltaq.homework.workbook import workbook_of
 from deltaq.mechanics.writing import write_scene
 from deltaq.narration.catalog import catalog
 
 SCENES = [*SHORT, "spring-pendulum", "rolling-disc", "coupled-pendulums", "charged-particle", "bouncing-ball"]
+BOUND = ["cartesian-pendulum", "chaplygin-sleigh", "stick-slip"]
 
 
 @pytest.mark.one_in(10)
@@ -25,9 +27,15 @@ def test_wrong_answers_are_wrong_and_their_mistakes_found(scene: str) -> None:
 def test_every_misconception_occurs() -> None:
     seen = {
         candidate.solution.id
-        for scene in (*SCENES, ROD, WALLS, *(write_scene(scene) for scene in constrained() if scene.id == "sleigh"))
+        for scene in (
+            *SCENES,
+            *BOUND,
+            ROD,
+            WALLS,
+            *(write_scene(scene) for scene in constrained() if scene.id == "sleigh"),
+        )
         for workbook in [workbook_of({"scene": scene})]
-        for task in workbook.tasks
+        for task in (*workbook.tasks, *asked_of_halls(workbook.solution))
         for candidate in workbook.candidates(task)
     }
     assert {kind.id for kind in misconceptions()} - seen == set()

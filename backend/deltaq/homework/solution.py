@@ -12,22 +12,28 @@ from ..derivation.calculus import V
 from ..derivation.conservation import cyclic, jacobi_energy, jacobi_energy_rate
 from ..derivation.generator import Symmetry
 from ..derivation.impacts import (
+    Held,
     answers,
     bouncing,
     effective_mass,
     free_mass,
+    frictions,
     gap_rate,
+    holding_force,
     impact,
+    largest_force,
     moving_term,
     restitution,
     slopes,
 )
 from ..derivation.linearization import linearizations
+from ..derivation.multipliers import Multipliers, multipliers
 from ..derivation.optional import symmetries_of
 from ..derivation.system import System
 from ..language.canonical import display
 from ..language.memory import cached_method
 from ..mechanics.conditions import Condition
+from ..mechanics.contributions import Friction
 from ..mechanics.event import Event
 
 
@@ -205,6 +211,43 @@ class Solution(System):
         """Λ ∂g/∂t + Σ Λ_c b: what a contact and constraints that move by themselves take out of the motion."""
         taken = (self.constraint_share(contact, each) * self.moving_term(each) for each in self.conditions)
         return self.impact_impulse(contact) * (self.contact_drift(contact) + sp.Add(*taken))
+
+    def gap_rate(self, contact: str) -> sp.Expr:
+        """ġ along the motion, negative while the two approach."""
+        return self.closing_rate(contact)
+
+    def kept(self, source: str) -> sp.Expr:
+        """Φ of a constraint, which is zero along the motion."""
+        return self.model.condition(self._bound_by(source))
+
+    def constraint_force(self, source: str) -> sp.Expr:
+        """λ of a constraint by coordinates and rates. Raises ValueError where it is too long."""
+        found = self._multipliers(source)
+        return found.values[self.multiplier(self._bound_by(source))]
+
+    def _multipliers(self, source: str) -> Multipliers:
+        found = multipliers(self.model)
+        if found is None:
+            raise ValueError(f"the multiplier of {source} is too long")
+        return found
+
+    def _bound_by(self, source: str) -> Condition:
+        return next(each for each in self.conditions if each.source == source)
+
+    def holding_force(self, load: str) -> sp.Expr:
+        """What keeps a load of dry friction sticking. Raises ValueError where that is too long."""
+        return self._held(load)[1].force
+
+    def largest_holding_force(self, load: str) -> sp.Expr:
+        """The most that it can be."""
+        return largest_force(self.model, *self._held(load))
+
+    def _held(self, load: str) -> tuple[Friction, Held]:
+        friction = next(each for each in frictions(self.model) if each.source == load)
+        found = holding_force(self.model, friction)
+        if found is None:
+            raise ValueError(f"the force that holds {load} is too long")
+        return friction, found
 
     def rest_reaction(self, source: str) -> sp.Expr:
         """λ₀ of a constraint in the first position of rest."""

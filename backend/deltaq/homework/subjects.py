@@ -71,15 +71,6 @@ def reacting(solution: Solution) -> tuple[str, ...]:
     return tuple(condition.source for condition in solution.conditions) if found else ()
 
 
-def reaction_of(solution: Solution, name: str) -> sp.Expr:
-    """λ of a constraint by coordinates and rates."""
-    found = multipliers(solution.model)
-    condition = next(each for each in solution.conditions if each.source == name)
-    if found is None:
-        raise ValueError(f"the multiplier of {name} is too long")
-    return found.values[solution.multiplier(condition)]
-
-
 def struck(solution: Solution) -> list[str]:
     """Each coordinate whose momentum jumps: of the first contact by its name, of others as `contact:coordinate`."""
     first = solution.bounces[:1]

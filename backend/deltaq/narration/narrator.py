@@ -14,7 +14,7 @@ from ..derivation.step import Chapter, Derivation, Line, Relation, Step, Summand
 from ..language.memory import cached_method
 from ..language.plain_printer import plain
 from .aligned import aligned
-from .catalog import filled, template, text
+from .catalog import filled, keys, template, text
 from .letters import Letters, in_sentence
 from .marks import without_classes
 from .matrix_writing import number_latex
@@ -94,7 +94,12 @@ class Narrator:
         }
 
     def _title(self, step: Step) -> CatalogText:
-        return text(self.language, f"rules.steps.{step.rule}.title", **self._names(step.about))
+        """Its own one where the outcome has one."""
+        rule = f"rules.steps.{step.rule}"
+        told = keys(self.language, f"{rule}.titles") if "titles" in keys(self.language, rule) else ()
+        outcome = step.about.get("outcome")
+        key = f"titles.{outcome}" if outcome in told else "title"
+        return text(self.language, f"{rule}.{key}", **self._names(step.about))
 
     def _mathematics(self, step: Step) -> Document:
         """The lines of a step, its terms, and the roots that have letters in it."""

@@ -106,7 +106,7 @@ function formulaOf(step, view) {
 
 /** What the hatching of terms means stands where they are seen; with the reason open it stands there. @param {Step} step @param {Shown} view */
 const legend = (step, { why, state }) =>
-  why && state.place.why !== step.id ? html`<div class="legend">${why.legend(step)}</div>` : nothing;
+  why && state.place.why !== step.id ? html`<div class="meanings">${why.legend(step)}</div>` : nothing;
 
 /** The formulas that are shown, the one that is talked about first. @param {Shown} view @param {boolean} veiled  the result is hidden @returns {import("./filled.js").Shown[]} */
 export function formulas(view, veiled) {

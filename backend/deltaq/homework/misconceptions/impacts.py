@@ -163,6 +163,34 @@ class ContactTakenAtRest(ImpactMistake):
 
 
 @dataclass(frozen=True, eq=False)
+class ApproachTakenForGapRate(ImpactMistake):
+    """The speed of approach is told as the rate of the gap: positive while the gap closes.
+
+    A gap that closes becomes smaller, so that ġ < 0 before the impact.
+    """
+
+    id: ClassVar[str] = "approach-taken-for-gap-rate"
+    likely: ClassVar[int] = 2
+
+    def gap_rate(self, contact: str) -> sp.Expr:
+        return -super().gap_rate(contact)
+
+
+@dataclass(frozen=True, eq=False)
+class GapRateWithoutRates(ImpactMistake):
+    """The gap is differentiated by the coordinates, and their rates are left out: ∂g/∂q in place of ∂g/∂q q̇.
+
+    The coordinates are functions of time; the chain rule gives each derivative the rate of its coordinate as a factor.
+    """
+
+    id: ClassVar[str] = "gap-rate-without-rates"
+    likely: ClassVar[int] = 3
+
+    def gap_rate(self, contact: str) -> sp.Expr:
+        return sp.Add(self.contact_drift(contact), *(self.gap_slope(contact, q) for q in self.free))
+
+
+@dataclass(frozen=True, eq=False)
 class WorkOfContactForgotten(ImpactMistake):
     """The loss is that of the closing motion alone, although contact or constraints move by themselves.
 

@@ -34,6 +34,10 @@ class CoordinateDirection(FaultySolution):
         q = self.q(self.about)
         return super().position(place).xreplace({q: -q})
 
+    def kept(self, source: str) -> sp.Expr:
+        q, rate = self.q(self.about), self.rate(self.about)
+        return super().kept(source).xreplace({q: -q, rate: -rate})
+
 
 @dataclass(frozen=True, eq=False)
 class RelativeAngle(FaultySolution):
@@ -55,6 +59,11 @@ class RelativeAngle(FaultySolution):
         first, second = map(self.q, self.about.split("/"))
         return super().position(place).xreplace({second: first + second})
 
+    def kept(self, source: str) -> sp.Expr:
+        first, second = self.about.split("/")
+        sums = {part(second): part(first) + part(second) for part in (self.q, self.rate)}
+        return super().kept(source).xreplace(sums)
+
 
 @dataclass(frozen=True, eq=False)
 class SineCosineSwapped(FaultySolution):
@@ -73,6 +82,9 @@ class SineCosineSwapped(FaultySolution):
 
     def position(self, place: str) -> sp.ImmutableMatrix:
         return swapped(super().position(place), self.q(self.about))
+
+    def kept(self, source: str) -> sp.Expr:
+        return swapped(super().kept(source), self.q(self.about))
 
 
 def swapped(value: V, coordinate: sp.Symbol) -> V:
