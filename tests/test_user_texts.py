@@ -219,14 +219,15 @@ def test_no_payload_is_live_in_questions(part: list[str]) -> None:
 
 @pytest.mark.parametrize("separator", [",", ";", "\t"])
 def test_no_payload_is_a_formula_of_a_spreadsheet(separator: str) -> None:
-    rows = [Graded(*[payload] * 5, 1.0, 2.0, *[payload] * 3) for payload in CORPUS]
-    written = results_csv(rows, Style(separator)).decode()
+    told = [[payload] * 5 + [1.0, 2.0] + [payload] * 5 + [2, "", payload, 0] + [payload] * 3 for payload in CORPUS]
+    rows = [Graded(*each, 1, False, 1.0, 1.0) for each in told]  # type: ignore[arg-type]
+    written = results_csv(rows, Style(separator), dated=True).decode()
     read = list(csv.reader(io.StringIO(written, newline=""), delimiter=separator))
     assert len(read) == len(CORPUS) + 1
     for row, payload in zip(read[1:], CORPUS, strict=True):
         lines = payload.replace("\r\n", "\n").replace("\r", "\n").encode(errors="replace").decode()
-        assert len(row) == 10
-        assert {row[place] for place in (0, 4, 9)} <= {lines, f"'{lines}"}, payload
+        assert len(row) == 15
+        assert {row[place] for place in (0, 4, 9, 10, 14)} <= {lines, f"'{lines}"}, payload
     assert [cell for row in read for cell in row if cell.strip(" \u00a0").startswith(FORMULA)] == []
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import io
 import re
+from dataclasses import replace
 from pathlib import Path
 from typing import Any, get_args
 
@@ -60,7 +61,8 @@ def test_summary_counts_misconceptions_by_task() -> None:
 @pytest.mark.parametrize("language", ["en", "de"])
 def test_every_mistake_has_a_name_in_the_summary(language: str) -> None:
     kinds = [*keys(language, "homework.misconceptions"), *(f"slip:{kind}" for kind in get_args(SlipKind)), ""]
-    rows = [Graded("", "pendulum", "t", "wrong", kind, 0.0, 1.0, "", "", "") for kind in kinds]
+    wrong = graded_rows(TABLE)[1]
+    rows = [replace(wrong, misconception=kind, mistake="") for kind in kinds]
     assert len(summary(rows, language).splitlines()) == 1 + len(kinds)
 
 

@@ -335,9 +335,15 @@ def row(student: str, outcome: str, points: float = 0.0, *, task: str = "t", **m
         "person": student or None,
         "misconception": "",
         "of": 4.0,
-        "understood_as": "",
-        "feedback": "",
-        "answer": "",
+        "target": None,
+        "row": 0,
+        "attempt": 1,
+        "late": False,
+        "counts": 1.0,
+        "worth": points,
+        **dict.fromkeys(
+            ("understood_as", "feedback", "answer", "title", "mistake", "column", "id", "time", "file"), ""
+        ),
     }
     return Graded(student=student, outcome=outcome, points=points, task=task, **(found | more))
 

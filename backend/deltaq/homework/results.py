@@ -43,19 +43,19 @@ class Graded:
     understood_as: str
     feedback: str
     answer: str
-    title: str = ""
-    mistake: str = ""
-    row: int = 0
-    column: str = ""
-    person: str | None = None
-    target: int | None = None
-    id: str = ""
-    time: str = ""
-    file: str = ""
-    attempt: int = 0
-    late: bool = False
-    counts: float = 1.0
-    worth: float = 0.0
+    title: str
+    mistake: str
+    row: int
+    column: str
+    person: str | None
+    target: int | None
+    id: str
+    time: str
+    file: str
+    attempt: int
+    late: bool
+    counts: float
+    worth: float
 
     def cells(self, names: Iterable[str] = RESULT) -> list[object]:
         """What the CSV says of it."""
