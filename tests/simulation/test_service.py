@@ -8,6 +8,7 @@ import json
 import math
 import subprocess
 import sys
+from time import sleep
 
 import numpy as np
 import pytest
@@ -17,14 +18,18 @@ from tests.simulation.scenes import double_pendulum, oscillator
 from deltaq.contract.simulation import COLUMNS
 from deltaq.errors import InputError, Problem, RequestError, SceneError, UnknownNameError
 from deltaq.mechanics.library import load_scene, scene_ids
+from deltaq.mechanics.scene import Scene
 from deltaq.mechanics.writing import write_scene
+from deltaq.model.model import Model, compile_model
 from deltaq.narration.catalog import LANGUAGES, message, text
 from deltaq.simulation import service
 from deltaq.simulation.choice import AUTO
 from deltaq.simulation.columns import WRITERS
 from deltaq.simulation.driver import simulate
 from deltaq.simulation.library import ENSEMBLES, families, get_method, kernel_groups, method_ids
+from deltaq.simulation.method import Method
 from deltaq.simulation.outcome import codes
+from deltaq.simulation.problem import Problem as Started
 from deltaq.simulation.service import problem_of, run, warm
 
 FIELDS = {
@@ -150,6 +155,17 @@ def test_parameters_and_initial_values_are_taken() -> None:
     answer = ask(parameters={"l": 0.25}, initial={"phi": {"value": 0.01}}, t_end=math.pi * math.sqrt(0.25 / 9.81))
     assert answer["coordinates"]["phi"][-1] == pytest.approx(-0.01, rel=1e-4)
     assert answer["positions"]["bob"][0] == pytest.approx([0.25 * math.sin(0.01), 0.25 * math.cos(0.01)])
+
+
+def test_the_time_of_compiling_is_told_by_itself(monkeypatch: pytest.MonkeyPatch) -> None:
+    def slowly(scene: Scene) -> Model:
+        sleep(0.05)
+        return compile_model(scene)
+
+    monkeypatch.setattr(service, "compile_model", slowly)
+    cost = ask()["cost"]
+    assert cost["compile_time"] >= 0.05
+    assert cost["run_time"] <= cost["wall_time"]
 
 
 def test_initial_value_beyond_the_slider_is_allowed() -> None:
@@ -435,11 +451,17 @@ def test_methods_of_the_families_that_are_named_are_warmed(
     monkeypatch: pytest.MonkeyPatch, chosen: tuple[str, ...]
 ) -> None:
     ran: list[str] = []
+    held: list[str] = []  # by constraints, to which a series has no way back
     lanes: list[int] = []
-    monkeypatch.setattr(service, "simulate", lambda _problem, method, **_options: ran.append(method.id))
+
+    def simulated(problem: Started, method: Method, **_options: object) -> None:
+        (held if problem.is_constrained else ran).append(method.id)
+
+    monkeypatch.setattr(service, "simulate", simulated)
     monkeypatch.setattr(service.ensemble, "warm", lambda _problem: lanes.append(1))
     warm(*chosen)
     assert {get_method(name).family for name in ran} == {*(chosen or families())} - {ENSEMBLES}
+    assert set(held) == set(ran) - {"taylor"}
     assert lanes == ([1] if not chosen or ENSEMBLES in chosen else [])
     assert set(method_ids()) - set(ran) == {
         name for name in method_ids() if chosen and get_method(name).family not in chosen
