@@ -129,7 +129,7 @@ def test_conditions_are_told_of_six_minors_at_most(count: int, known: bool) -> N
     assert [(verdict, lines[:1]) for verdict, _, lines in told(scene)] == ([("stable", ["k < c"])] if known else [])
 
 
-@pytest.mark.parametrize(("powers", "known"), [(2, True), (40, False)])
+@pytest.mark.parametrize(("powers", "known"), [(21, True), (40, False)])  # the first with 30 operations
 @pytest.mark.parametrize("sign", [1, -1])
 def test_conditions_that_nobody_reads_are_not_told(powers: int, known: bool, sign: int) -> None:
     """A stiffness that is a long sum, on either side of the inequality."""

@@ -73,6 +73,12 @@ def test_terms_of_an_equation_turn_their_signs_as_they_are_written(
     assert [[f"{change} {name[-1]}" for name, change in term] for term in last] == [[one] for one in found]
 
 
+def test_a_term_that_is_zero_comes_from_nothing() -> None:
+    """d/dt a = 0 of a constant, beside terms that come from where they came from before."""
+    after = f.Plus((f.Term(f.Rate(f.Explicit(a))), f.Term(f.Explicit(b)), f.Term(f.Explicit(a * x))))
+    assert origins(line(a * x, b), after) == [[], [("0.0.1", "kept")], [("0.0.0", "kept")]]
+
+
 def test_what_cancels_goes_by_pairs() -> None:
     lines = told(line(a * x, -a * x, a * x, c), line(a * x, c))
     assert [[one.term for one in term.origins] for term in lines[-1].terms] == [["energy/0.0.2"], ["energy/0.0.3"]]

@@ -138,6 +138,19 @@ def test_a_difference_counts_by_the_size_of_what_is_compared(size: int, off: flo
     assert holds(Relation((left, right)), POINTS) is same
 
 
+def test_variations_vanish_at_both_ends_and_are_in_motion_between() -> None:
+    """δq is a parabola that has its value at the time of the point: no rate of it is zero there."""
+    start, end = (symbol.name for symbol in SYSTEM.ends)
+    for point in POINTS:
+        for name in ("y", "phi"):
+            value, rate, second = (point[f"{dot}delta({name}){')' * bool(dot)}"] for dot in ("", "dot(", "ddot("))
+            for time in (start, end):
+                away = point[time] - point["t"]
+                assert abs(value + rate * away + second * away**2 / 2) < 1e-9
+            assert abs(rate * (point[end] - point[start])) > abs(value) / 10
+            assert abs(second) > 0
+
+
 TINY = sp.Rational(1, 10**20)
 
 
