@@ -15,8 +15,8 @@ def derivatives(problem: Problem, times: Floats, states: Floats) -> Floats:
     `times` has shape (states,), `states` shape (states, ≥ 2n); returns shape (states, width), width 2n or 2n + 1.
     """
     out = np.zeros((len(times), problem.state.size))
-    rows = np.ascontiguousarray(states[:, : 2 * problem.degrees])
-    evaluate_rhs(motion_of(problem, is_long=False), np.ascontiguousarray(times), rows, out)
+    at, rows = np.ascontiguousarray(times), np.ascontiguousarray(states)
+    evaluate_rhs(motion_of(problem, is_long=False), at, rows, out)
     return out
 
 
