@@ -26,11 +26,12 @@ from deltaq.simulation import service
 from deltaq.simulation.choice import AUTO
 from deltaq.simulation.columns import WRITERS
 from deltaq.simulation.driver import simulate
+from deltaq.simulation.kernels.compiler import MachineCodeNeededError
 from deltaq.simulation.library import ENSEMBLES, families, get_method, kernel_groups, method_ids
 from deltaq.simulation.method import Method
 from deltaq.simulation.outcome import codes
 from deltaq.simulation.problem import Problem as Started
-from deltaq.simulation.service import problem_of, run, warm
+from deltaq.simulation.service import problem_of, run, run_at_once, warm
 
 FIELDS = {
     *("status", "reason", "remedy", "event", "events", "method", "choice", "columns", "t"),
@@ -166,6 +167,19 @@ def test_the_time_of_compiling_is_told_by_itself(monkeypatch: pytest.MonkeyPatch
     cost = ask()["cost"]
     assert cost["compile_time"] >= 0.05
     assert cost["run_time"] <= cost["wall_time"]
+
+
+def test_what_is_asked_at_once_is_the_same_answer_or_none(monkeypatch: pytest.MonkeyPatch) -> None:
+    asked = {"scene": "pendulum", "t_end": 0.1, "samples": 3, "method": "rk4", "step": 0.05}
+    soon, now = run(asked), run_at_once(asked)
+    assert now is not None
+    assert {**now, "cost": None} == {**soon, "cost": None}
+
+    def takes_too_long(_work: object, _seconds: float) -> None:
+        raise MachineCodeNeededError
+
+    monkeypatch.setattr(service, "interpreted", takes_too_long)
+    assert run_at_once(asked) is None
 
 
 def test_initial_value_beyond_the_slider_is_allowed() -> None:
