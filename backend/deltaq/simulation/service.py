@@ -102,7 +102,7 @@ def require_one_mode(scene: Scene) -> None:
 
 def require_no_event(scene: Scene, problem: Problem) -> None:
     """Raises SceneError if an event has happened before the motion begins."""
-    values = event_values(problem, np.zeros(1), problem.state[None, :])[0]
+    (values,) = event_values(problem, np.zeros(1), problem.state[None, :])
     problems = [
         errors.Problem("event-at-start", f"/events/{i}/value", parameters=_at_start(event, value))
         for i, (event, value) in enumerate(zip(scene.events, values, strict=True))
