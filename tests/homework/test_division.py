@@ -5,9 +5,11 @@ The mass on a spring in polar coordinates without a range: r² θ̈ + 2 r ṙ θ
 
 from __future__ import annotations
 
+import numpy as np
 import pytest
 
 from deltaq.homework.checking import check
+from deltaq.homework.equality.division import _solved_left
 from deltaq.homework.service import check_request
 from deltaq.homework.workbook import workbook_of
 
@@ -142,3 +144,16 @@ def test_a_mistake_in_a_divided_equation_is_named_all_the_same() -> None:
     halved = check(workbook, workbook.task("equation:theta"), "r*theta'' + r'*theta' + g*sin(theta) = 0", "plain")
     assert halved.misconceptions == ("total-derivative-halved",)
     assert [(slip.kind, slip.place.offset) for slip in halved.slips if slip.place] == [("half", 12)]
+
+
+@pytest.mark.parametrize("size", [1, 2, 3, 4])
+def test_a_row_is_solved_for_from_the_left(size: int) -> None:
+    """x A = b, by NumPy as well; rows and columns may stand in any order, also with zeros on the diagonal."""
+    draw = np.random.default_rng(size)
+    for _ in range(20):
+        matrix, row = draw.uniform(-2.0, 2.0, (size, size)), draw.uniform(-2.0, 2.0, size)
+        matrix[draw.integers(size), draw.integers(size)] = 0.0 if size > 1 else 1.0
+        np.testing.assert_allclose(_solved_left(matrix.tolist(), row.tolist()) @ matrix, row, rtol=1e-9, atol=1e-9)
+    swapped = np.eye(size)[::-1]
+    assert _solved_left(swapped.tolist(), row.tolist()) == row[::-1].tolist()
+    assert np.isnan(_solved_left(np.zeros((size, size)).tolist(), row.tolist())).all()

@@ -92,6 +92,7 @@ ROWS = [
     ("pendulum", "equation:phi", f"ddot(phi)*{PENDULUM} = 0", "untold", NO),
     ("pendulum", "equation:phi", "g*sin(phi) = 0", "nothing", NO),
     ("pendulum", "equation:phi", "0 = 0", "nothing", NO),
+    ("pendulum", "equation:phi", f"(abs(phi - 1) + phi - 1)*{PENDULUM} = 0", "nothing", VANISHES),  # for φ < 1
     ("pendulum", "equation:phi", f"{PENDULUM} + {NOWHERE} = 0", "untold", UNDECIDED),
     ("pendulum", "equation:phi", f"{NOWHERE}*{PENDULUM} = 0", "untold", UNDECIDED),
     ("cart-pendulum", "equation:x", f"{CART} = 0", "alike", YES),

@@ -77,3 +77,15 @@ def test_a_long_sum_with_a_quotient_keeps_its_value() -> None:
     shown = display(total, SYMBOLS)
     assert sympy.expand((shown - total).subs({x: 3, y: -2, phi: 5, m: 7})) == 0
     assert size(shown) <= size(total)
+
+
+@pytest.mark.parametrize(("products", "shortened"), [(100, True), (101, False)])
+def test_waves_are_written_the_shortest_way_in_sums_that_somebody_reads(products: int, shortened: bool) -> None:
+    """sin² is 1/2 − cos 2φ/2: of each product two terms, and 200 at most."""
+    powers = list(itertools.product(range(11), repeat=2))[:products]
+    given = read("sin(phi)^2") * sympy.Add(*(read(f"dot(x)^{i}*dot(y)^{j}") for i, j in powers))
+    reader = Reader()
+    found = Arrangement(reader, Order(NAMES)).expression(reader.form(given))
+    assert found.has(sympy.cos(2 * SYMBOLS.name("phi"))) is not shortened
+    somewhere = {SYMBOLS.name("phi"): 0.7, SYMBOLS.rate("x", 1): 0.9, SYMBOLS.rate("y", 1): 1.1}
+    assert float(found.subs(somewhere)) == pytest.approx(float(given.subs(somewhere)))

@@ -233,6 +233,7 @@ REFUSED = [
     ("\\sqrt{", "unclosed-group", 5, 1, {}),
     ("\\sqrt[3", "unclosed-bracket", 5, 1, {"bracket": "[", "wanted": "]"}),
     ("\\sqrt[x]{m}", "symbolic-exponent", 0, 11, {}),
+    ("2+\\sqrt[1/6]{10^{60}}", "value-too-large", 2, 19, {"limit": "1e±300"}),
     ("\\dot", "missing-argument", 0, 4, {"name": "\\dot"}),
     ("\\dot{}", "empty-brackets", 5, 0, {}),
     ("\\dot m", "rate-of-constant", 0, 6, {"name": "m"}),

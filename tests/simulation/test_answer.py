@@ -169,6 +169,18 @@ def test_an_answer_leaves_room_for_differences_below_the_largest_double(share: f
     assert len(answer["t"]) == len(answer["positions"]["far"]) == samples
 
 
+def test_multipliers_are_told_to_those_who_ask_and_as_long_as_their_errors_allow() -> None:
+    asked = {"scene": write_scene(pendulum()), "method": "rk4", "step": 0.02, "t_end": 1.0}
+    whole, alone, others = (ask(**asked, **more) for more in ({}, {"include": ["multipliers"]}, {"include": ["rates"]}))
+    told, errors = whole["multipliers"]["S"], whole["error"]["multipliers"]["S"]
+    for value, error in zip(told[1:], errors[1:], strict=True):
+        assert value == round(value, math.ceil(-math.log10(error)) + 3)
+    np.testing.assert_allclose(alone["multipliers"]["S"], told, atol=1e-4)
+    assert max(digits(value) for value in alone["multipliers"]["S"]) > max(map(digits, told))
+    assert {"multipliers", "reactions"} <= alone.keys()
+    assert not {"multipliers", "reactions"} & others.keys()
+
+
 @pytest.mark.parametrize(
     ("x", "rate", "told"),
     [
