@@ -89,3 +89,11 @@ def test_waves_are_written_the_shortest_way_in_sums_that_somebody_reads(products
     assert found.has(sympy.cos(2 * SYMBOLS.name("phi"))) is not shortened
     somewhere = {SYMBOLS.name("phi"): 0.7, SYMBOLS.rate("x", 1): 0.9, SYMBOLS.rate("y", 1): 1.1}
     assert float(found.subs(somewhere)) == pytest.approx(float(given.subs(somewhere)))
+
+
+@pytest.mark.parametrize(("factor", "alike"), [("dot(x)", True), ("m", False)])
+def test_a_long_sum_is_shown_alike_however_it_was_given_where_something_moves(factor: str, alike: bool) -> None:
+    """A power of a sum is left as it is in a potential alone."""
+    given = read(f"{factor}*(1 + x + y + phi)^9")
+    shown, expanded = (display(each, SYMBOLS) for each in (given, sympy.expand(given)))
+    assert (shown == expanded, shown == given) == (alike, not alike)
