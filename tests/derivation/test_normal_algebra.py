@@ -161,6 +161,7 @@ def test_one_term_more_is_false(formula: Formula, value: Formula) -> None:
         pytest.param(Ratio(e(X), e(0)), id="division by zero"),
         pytest.param(Rounded(sp.Rational(1, 2**201)), id="rounded"),
         pytest.param(Substituted(e(X), {X: sp.Rational(1, 3**200)}), id="rounded put in"),
+        pytest.param(Substituted(e(X * Y), {X: sp.Rational(1, 3**200), Y: ONE}), id="rounded put in beside others"),
     ],
 )
 def test_what_has_no_normal_form_is_not_proved(formula: Formula) -> None:

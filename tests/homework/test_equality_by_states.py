@@ -100,7 +100,8 @@ def test_states_keep_the_constraints_and_move_by_the_laws(name: str, laws: Calla
         assert laws(state) == pytest.approx([0.0] * len(laws(state)), abs=1e-10)
         assert {p: state[p] for p in wanted} == pytest.approx(wanted, rel=0.0501)
         assert 0.0 <= state["t"] <= 1.0
-    for what in (*wanted, "t", *(f"dot({each.name})" for each in SCENES[name].free)):
+    moving = [each.name for each in SCENES[name].free]
+    for what in (*wanted, "t", *moving, *map("dot({})".format, moving)):
         assert len({state[what] for state in found}) == 5, what
 
 

@@ -12,6 +12,7 @@ from .bounds import MAX_DEPTH
 from .functions import SPELLINGS
 from .latex_source import ONLY_VARIABLES, Range, Source, cells, differential_head, differential_variables, separators
 from .latex_tables import (
+    BAR,
     DIFFERENTIAL,
     INDEX,
     LETTER,
@@ -28,11 +29,12 @@ from .latex_tables import (
     SYSTEMS,
     TRANSPOSE,
     UPRIGHT,
+    sides_of_bars,
 )
 from .names import Names, is_differential
 from .plain_lexer import number_token, operator_tokens
 from .spelling import GREEK, GREEK_NAMES, SUPERSCRIPTS, dotted, key
-from .tokens import Token, fail, has_comma, vector_tokens
+from .tokens import Kind, Token, fail, has_comma, vector_tokens
 from .tree import Span
 from .words import UNITS, word_tokens
 
@@ -48,18 +50,18 @@ def latex_tokens(text: str, names: Names) -> Iterator[Token]:
         if len(stripped) > 2 * len(opening) and stripped.startswith(opening) and stripped.endswith(closing):
             start, end = start + len(opening), end - len(closing)
             break
-    yield from LatexLexer(text, names, (start, end), 0).tokens()
+    yield from LatexLexer(text, names, (start, end), 0, sides_of_bars(text)).tokens()
     yield Token("end", "", Span(len(text), 0))
 
 
 class LatexLexer:
     """Reads one stretch of LaTeX; arguments and groups are read by lexers of their own."""
 
-    def __init__(self, text: str, names: Names, inside: Range, depth: int) -> None:
+    def __init__(self, text: str, names: Names, inside: Range, depth: int, sides: Mapping[int, Kind]) -> None:
         if depth > MAX_DEPTH:
             fail("too-deep", Span(inside[0], inside[1] - inside[0]), limit=MAX_DEPTH)
         self.source = Source(text, *inside)
-        self.names = names
+        self.names, self.sides = names, sides
         self.found: list[Token] = []
         self._depth = depth
         self.brackets: list[int] = []
@@ -72,7 +74,7 @@ class LatexLexer:
 
     def within(self, inside: Range) -> list[Token]:
         """The tokens of a part."""
-        return LatexLexer(self.source.text, self.names, inside, self._depth + 1).tokens()
+        return LatexLexer(self.source.text, self.names, inside, self._depth + 1, self.sides).tokens()
 
     def grouped(self, inside: Range, bracket: str = "") -> list[Token]:
         """The tokens of a part as one group."""
@@ -227,9 +229,8 @@ def read_sized(lexer: LatexLexer, size: str, start: int) -> None:
         lexer.source.at += 1
         if right and lexer.brackets:
             _end_system(lexer)
-    elif character == "|" or lexer.source.peek_command() in ("vert", "lvert", "rvert"):
-        lexer.source.at += 1 if character == "|" else len(lexer.source.peek_command()) + 1
-        _bar(lexer, size, lexer.since(start))
+    elif lexer.source.match(BAR):
+        read_bar(lexer, size, start)
     elif character == "" or character not in "()[]\\":
         fail("missing-argument", Span(start, len(size) + 1), name="\\" + size)
 
@@ -241,13 +242,11 @@ def _end_system(lexer: LatexLexer) -> None:
         del lexer.found[lexer.brackets.pop()]
 
 
-def _bar(lexer: LatexLexer, size: str, span: Span) -> None:
-    if size in ("left", "mleft"):
-        lexer.found += [Token("function", "abs", span), Token("open", "|", span)]
-    elif size in ("right", "mright"):
-        lexer.found.append(Token("close", "|", span))
-    else:
-        lexer.found.append(Token("operator", "|", span))
+def read_bar(lexer: LatexLexer, _name: str, start: int) -> None:
+    """A bar that opens, one that closes, or one that does not say which."""
+    kind, span = lexer.sides.get(start, "operator"), lexer.since(start)
+    function = [Token("function", "abs", span)] if kind == "open" else []
+    lexer.found += [*function, Token(kind, "|", span)]
 
 
 def read_letters(lexer: LatexLexer) -> None:
@@ -495,6 +494,7 @@ _HANDLERS: Mapping[str, Callable[[LatexLexer, str, int], None]] = MappingProxyTy
         "begin": read_environment,
         "exponentialE": read_exponential,
         "boxed": read_boxed,
+        **dict.fromkeys(("vert", "lvert", "rvert"), read_bar),
         **dict.fromkeys(("quad", "qquad"), lambda lexer, _name, _start: separate(lexer)),
     }
 )

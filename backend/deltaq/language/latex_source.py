@@ -70,11 +70,6 @@ class Source:
             self.match(_DISTANCE)
         return name
 
-    def peek_command(self) -> str:
-        """The name of the command ahead without stepping over it."""
-        found = _COMMAND.match(self.text, self.at, self.end)
-        return found[0][1:] if found else ""
-
     def argument(self, owner: Span, name: str) -> Range:
         """Step over an argument; where its content stands: a group, a command with its arguments, a character."""
         ahead = self.next()

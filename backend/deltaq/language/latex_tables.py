@@ -2,9 +2,13 @@
 
 from __future__ import annotations
 
+import math
 import re
 from collections.abc import Mapping
+from itertools import accumulate
 from types import MappingProxyType
+
+from .tokens import Kind
 
 NUMBER = re.compile(r"(?:\d+(?:(?:\.|\{,\})\d*)?|\.\d+)(?:[eE][+-]?\d+)?(?P<again>\.\d*)?", re.ASCII)
 PREFIX = re.compile(r"0[xXbBoO][0-9A-Fa-f]+")
@@ -14,6 +18,11 @@ PRIMED = re.compile(r"\s*(?:(?:\\prime(?![A-Za-z])|')\s*)+(?:\^(?=.))?\s*")  # x
 LETTERS = re.compile(r"[A-Za-z]+")
 SINGLE = re.compile(r"\s*(?:\\([A-Za-z]+)|([A-Za-z])|([^\x00-\x7f]))\s*\Z")
 MARKS = re.compile(r"[\u0307\u0308]+")
+BAR = re.compile(r"\||\\[lr]?vert(?![A-Za-z])")
+# A bar with what enlarges it, as \left| and \bigl\vert; either may tell the side.
+_SIZED_BAR = re.compile(
+    r"(?:\\(?P<size>m?left|m?right|[bB]igg?[lr]?)(?:\s|\\[,;:! ])*)?(?:\||\\(?P<own>[lr]?)vert(?![A-Za-z]))"
+)
 INDEX = re.compile(r"(?:[A-Za-z0-9,\s]|\\(?:mathrm|text|mathit)\b|\\[A-Za-z]+|[{}])*\Z")
 
 OPERATORS: Mapping[str, str] = MappingProxyType(
@@ -32,9 +41,6 @@ OPERATORS: Mapping[str, str] = MappingProxyType(
         "lbrace": "(",
         "rbrace": ")",
         "\\": ";",
-        "lvert": "|",
-        "rvert": "|",
-        "vert": "|",
         "mid": "|",
         "minus": "-",
         "partial": "∂",
@@ -84,3 +90,23 @@ MATRICES = frozenset({"matrix", "pmatrix", "bmatrix", "Bmatrix", "smallmatrix", 
 SYSTEMS = frozenset(
     {"aligned", "align", "align*", "gathered", "gather", "gather*", "cases", "equation", "equation*", "split"}
 )
+
+
+def sides_of_bars(text: str) -> Mapping[int, Kind]:
+    """By their places, the bars that open and those that close, as far as that is told.
+
+    \\left and \\right are always meant; \\lvert, \\bigl and the like only where no bar is without a side, and all go by
+    pairs: else they are bars like others.
+    """
+    always: dict[int, Kind] = {}
+    told: dict[int, str] = {}
+    for bar in _SIZED_BAR.finditer(text):
+        size = bar["size"] or ""
+        if size.endswith(("left", "right")):
+            always[bar.start()] = "open" if size.endswith("left") else "close"
+        else:
+            told[bar.start()] = size[-1] if size.endswith(("l", "r")) else bar["own"] or ""
+    depths = list(accumulate({"l": 1, "r": -1}.get(side, math.inf) for side in told.values()))
+    if depths and min(depths) >= 0 and depths[-1] == 0:
+        always |= {start: "open" if side == "l" else "close" for start, side in told.items()}
+    return always
