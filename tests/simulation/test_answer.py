@@ -50,6 +50,21 @@ def test_the_error_is_that_of_the_harmonic_oscillator() -> None:
     assert max(told) == max(told[:-2]) == 3
 
 
+def test_a_horizon_is_told_from_where_on_no_digit_is_left() -> None:
+    """Euler's method makes x = cos 2t larger by a factor of √(1 + ω²h²) in each step: e¹⁰ in 50 s for h = 0.1."""
+    pull = {"kind": "force", "at": "mass", "force": ["-4*x", "0"]}
+    scene = document({"x": (1.0, 0.0)}, {"m": 1.0}, {"mass": ("m", ["x", "0"])}, [pull])
+    answer = ask(scene=scene, method="explicit-euler", step=0.1, t_end=50.0, samples=201)
+    horizon, t = answer["error"]["horizon"], np.array(answer["t"])
+    assert (answer["status"], answer["reason"]["parameters"]["t"]) == ("horizon_reached", float(f"{horizon:.3g}"))
+    assert answer["trusted_until"] == horizon < answer["t_reached"] == 50.0
+    off = np.abs(np.array(answer["coordinates"]["x"]) - np.cos(2.0 * t))
+    estimate = np.array(answer["error"]["estimate"])
+    assert (off <= 1.05 * estimate)[t < horizon].all()
+    assert off[t > horizon].max() > 0.5
+    assert min(estimate[t > horizon]) > 0.5
+
+
 def test_the_drift_is_how_far_the_balance_goes_from_where_it_began() -> None:
     """Euler's method adds ω²h² to the energy E = 2 J of x = cos 2t in each step: the farthest is the end."""
     pull = {"kind": "force", "at": "mass", "force": ["-4*x", "0"]}
@@ -167,6 +182,35 @@ def test_an_answer_leaves_room_for_differences_below_the_largest_double(share: f
     scene = document({"x": (0.0, 64.0)}, {"m": 1.0, "c": far / 64.0}, {"mass": ("m", ["x", "0"])}, points=points)
     answer = ask(scene=scene, t_end=1.0)
     assert len(answer["t"]) == len(answer["positions"]["far"]) == samples
+
+
+@pytest.mark.parametrize(
+    ("scene", "more", "reactions"),
+    [
+        ("guided-pendulum", {"release": ["l", "y"]}, {"l": ("N", True), "y": ("N", False)}),
+        ("cartesian-pendulum", {}, {"S": ("N", True)}),
+        ("chaplygin-sleigh", {}, {"lambda": ("N", False)}),
+        ("four-bar", {}, {"lambda_x": ("N", False), "lambda_y": ("N", False)}),
+    ],
+)
+def test_a_length_is_held_by_what_can_go_slack(
+    scene: str, more: dict[str, object], reactions: dict[str, tuple[str, bool]]
+) -> None:
+    """A rod or a string by its constraint or its length; not a blade, a loop that closes, or a guide."""
+    told = ask(scene=scene, include=["multipliers"], t_end=0.1, samples=2, **more)
+    assert {name: (each["unit"], each["of_rod"]) for name, each in told["reactions"].items()} == reactions
+    assert told["multipliers"].keys() == reactions.keys()
+
+
+@pytest.mark.parametrize(("share", "moved"), [(0.9, False), (1.1, True)])
+def test_a_large_value_may_be_moved_by_a_billionth_of_itself(share: float, moved: bool) -> None:
+    """On a circle of 500 m, where x = 300 and y = −400 but for what is added to y; along the rod that is 0.8 of it."""
+    added = share * 400e-9 / 0.8**2
+    initial = {"x": {"value": 300.0}, "y": {"value": -400.0 - added}}
+    told = ask(scene=write_scene(pendulum()), t_end=0.01, parameters={"l": 500.0}, initial=initial)["moved"]
+    assert (told is not None) is moved
+    if told:
+        assert told["y"]["value"] == pytest.approx(0.8**2 * added, rel=1e-3)
 
 
 def test_multipliers_are_told_to_those_who_ask_and_as_long_as_their_errors_allow() -> None:
