@@ -15,6 +15,7 @@ from ..model.model import Observation
 from .choice import Choice
 from .columns import WRITERS, Column, Writer
 from .derivatives import power
+from .estimate import Estimate
 from .friction import FrictionForce
 from .outcome import Outcome
 from .problem import Floats, Moved, Problem
@@ -43,8 +44,10 @@ def answer(
     parts: Document = _curves(request, problem, trajectory, seen, errors, column)
     if not request.include.isdisjoint({"energy", "power"}):
         parts["energy"] = _energy(request, problem, trajectory, seen, errors)
-    if "error" in request.include:
-        parts["error"] = _error(problem, trajectory, request.tolerance)
+    if "error" in request.include and trajectory.estimate:  # asked for, it is there
+        parts["error"] = _error(
+            problem, trajectory.estimate, request.tolerance, is_reached=trajectory.tolerance_reached
+        )
     parts |= _constrained(request, problem, trajectory)
     if "loads" in request.include and frictions:
         parts["friction"] = _friction(frictions, column)
@@ -220,21 +223,18 @@ def _moved(request: Request, moved: Moved) -> Document | None:
     return changed or None
 
 
-def _error(problem: Problem, trajectory: Trajectory, tolerance: float | None) -> Document:
-    found = trajectory.estimate
-    of_multipliers = None if found is None or found.multipliers is None else found.multipliers
-    told = (
-        {}
-        if of_multipliers is None
-        else {"multipliers": {name: significant(of_multipliers[:, k], 3).tolist() for k, name in _unique(problem)}}
-    )
+def _error(problem: Problem, found: Estimate, tolerance: float | None, *, is_reached: bool | None) -> Document:
+    told = {}
+    if found.multipliers is not None:
+        each = {name: significant(found.multipliers[:, k], 3).tolist() for k, name in _unique(problem)}
+        told = {"multipliers": each}
     return {
         **told,
-        "estimate": significant(found.errors, 3).tolist() if found else [None] * len(trajectory.times),
-        "horizon": found.horizon if found else None,
-        "worst": short(found.worst) if found else None,
+        "estimate": significant(found.errors, 3).tolist(),
+        "horizon": found.horizon,
+        "worst": short(found.worst),
         "tolerance": tolerance,
-        "reached": trajectory.tolerance_reached,
+        "reached": is_reached,
     }
 
 
