@@ -184,6 +184,27 @@ def test_an_answer_leaves_room_for_differences_below_the_largest_double(share: f
     assert len(answer["t"]) == len(answer["positions"]["far"]) == samples
 
 
+@pytest.mark.parametrize("include", [["coordinates"], ["error"]])
+def test_impacts_are_told_with_their_times_and_losses(include: list[str]) -> None:
+    """A ball of 3 kg falls 0.7 m; of each speed 0.6 is left, of each energy 0.36: t₁ = √(2h/g), then 2·0.6ᵏ·t₁ more."""
+    weight = {"kind": "gravity", "acceleration": ["0", "-g"]}
+    floor = {"name": "floor", "value": "y", "then": "bounce", "restitution": "0.6"}
+    scene = document({"y": (0.7, 0.0)}, {"m": 3.0, "g": 9.81}, {"ball": ("m", ["0", "y"])}, [weight])
+    told = ask(scene=scene | {"events": [floor]}, t_end=1.2, include=include)["events"]
+    first, energy = math.sqrt(1.4 / 9.81), 3.0 * 9.81 * 0.7
+    times = [first, 2.2 * first, 2.92 * first]
+    assert [each["time"] for each in told] == pytest.approx(times, rel=1e-12)
+    assert [each["loss"] for each in told] == [float(f"{0.64 * energy * 0.36**k:.6g}") for k in range(3)]
+    assert [(each["name"], each["kind"]) for each in told] == [("floor", "impact")] * 3
+    errors = [each["error"] for each in told]
+    if "error" in include:
+        assert all(0.0 < error < 1e-10 for error in errors)
+        assert max(map(digits, errors)) == 3
+    else:
+        assert errors == [None] * 3
+        assert all(each["time"] == round(each["time"], 15) for each in told)
+
+
 @pytest.mark.parametrize(
     ("scene", "more", "reactions"),
     [

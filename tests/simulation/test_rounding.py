@@ -89,6 +89,9 @@ def test_rounding_never_leaves_the_range_of_doubles() -> None:
         found = rounded(values, np.full(len(values), error))
         assert np.isfinite(found).all()
         assert (np.abs(found / 2 - values / 2) <= 0.5 * np.maximum(np.abs(values) * 1e-15, 0.5)).all()
+        bits = rounded_to_bits(values, np.full(len(values), error))
+        assert np.isfinite(bits).all()
+        assert (np.abs(bits / 2 - values / 2) <= np.maximum(error, 1e-15) * 2.0**-8 + np.abs(values) * 1e-16).all()
     for digits in (1, 2, 3, 12):
         near = 5.1 * 10.0**-digits * np.abs(values) + 5e-324
         assert (np.abs(significant(values, digits) - values) <= near).all()

@@ -35,9 +35,8 @@ def rounded_to_bits(values: Floats, errors: Floats) -> Floats:
     """
     _, exponents = np.frexp(np.maximum(np.abs(errors), SMALLEST_ERROR * 10.0 ** -_zeros(values)))
     units = np.ldexp(1.0, exponents - GUARD_BITS).reshape(-1, *(1,) * (values.ndim - 1))
-    counts = values / units
-    is_many = np.abs(counts) >= WHOLE
-    return np.where(is_many, values, np.round(np.where(is_many, 0.0, counts)) * units) + 0.0
+    with np.errstate(over="ignore"):
+        return _in_range(np.round(values / units) * units, values) + 0.0
 
 
 def short(value: float, digits: int = 3) -> float:
@@ -52,10 +51,8 @@ def _with_decimals(values: Floats, decimals: int) -> Floats:
     return np.where(has_decimals, np.round(np.where(has_decimals, values, 0.0), decimals), values)
 
 
-def _within(values: Floats, decimals: int) -> Floats:
-    """Rounded, or as they are where rounding would leave the range of doubles."""
-    with np.errstate(over="ignore"):
-        found = np.round(values, decimals)
+def _in_range(found: Floats, values: Floats) -> Floats:
+    """What was found by rounding, or the values as they are where rounding has left the range of doubles."""
     return np.where(np.isfinite(found), found, values)
 
 
@@ -82,5 +79,6 @@ def significant(values: Floats, digits: int) -> Floats:
     for place in np.unique(leading):
         chosen, decimals = leading == place, digits - 1 - int(place)
         if decimals <= EXACT:
-            found[chosen] = _within(found[chosen], decimals)
+            with np.errstate(over="ignore"):
+                found[chosen] = _in_range(np.round(found[chosen], decimals), found[chosen])
     return found
