@@ -7481,7 +7481,7 @@ export interface components {
             trusted_until: number;
             /**
              * Condition
-             * @description of the mass matrix: largest ratio of a diagonal entry to a pivot
+             * @description of the mass matrix: largest ratio of a diagonal entry to a pivot; null if it has no inverse
              */
             condition: number | null;
             cost: components["schemas"]["Cost"];

@@ -9,7 +9,7 @@ from time import perf_counter
 
 import numpy as np
 import pytest
-from tests.simulation.constrained import G, particle, pendulum, rod
+from tests.simulation.constrained import G, equation, particle, pendulum, rod
 from tests.simulation.constrained import scene as constrained
 from tests.simulation.scenes import document
 
@@ -244,6 +244,7 @@ def test_multipliers_are_told_to_those_who_ask_and_as_long_as_their_errors_allow
     assert max(digits(value) for value in alone["multipliers"]["S"]) > max(map(digits, told))
     assert {"multipliers", "reactions"} <= alone.keys()
     assert not {"multipliers", "reactions"} & others.keys()
+    assert max(map(digits, errors)) == 3
 
 
 @pytest.mark.parametrize(
@@ -267,6 +268,44 @@ def test_what_was_added_to_initial_values_is_told_from_a_billionth_of_them_or_of
     """On a circle of 1 m: what lies along the rod is taken away, of values and of rates."""
     initial = {name: {"value": q, "rate": v} for name, q, v in zip("xy", x, rate, strict=True)}
     assert ask(scene=write_scene(pendulum()), t_end=0.01, initial=initial)["moved"] == told
+
+
+def test_what_was_added_has_six_digits() -> None:
+    initial = {"x": {"value": 0.6012345678, "rate": 0.0123456789}, "y": {"value": -0.8098765432, "rate": 0.0198765432}}
+    moved = ask(scene=write_scene(pendulum()), t_end=0.01, initial=initial)["moved"]
+    for name in ("value", "rate"):
+        assert max(digits(each[name]) for each in moved.values()) == 6
+
+
+def test_multipliers_stand_in_the_order_of_the_scene() -> None:
+    """Those of laws of rates first where they come first, though positions are kept before them."""
+    scene = constrained(
+        {"x": (0.6, 0.0), "y": (-0.8, 0.0), "u": (0.0, 1.0), "v": (0.0, 0.0), "phi": (0.0, 0.5)},
+        {"m": 1.0, "l": 1.0, "g": G},
+        [particle("ball", "x", "y"), particle("one", "u + cos(phi)", "v + sin(phi)"), particle("two", "u", "v")],
+        [equation("B", "dot(v)*cos(phi) - dot(u)*sin(phi) = 0"), rod("S", "pivot", "ball")],
+        points={"pivot": ["0", "0"]},
+    )
+    told = ask(scene=write_scene(scene), t_end=0.1, samples=2)
+    assert list(told["multipliers"]) == list(told["reactions"]) == list(told["error"]["multipliers"]) == ["B", "S"]
+    # m g cos φ of a rod that hangs at rest with cos φ = 0.8; the blade holds both on the level against 2 m g at first.
+    assert told["multipliers"]["S"][0] == pytest.approx(0.8 * G)
+
+
+def test_where_the_mass_matrix_has_no_inverse_there_is_no_condition() -> None:
+    at_the_pole = {"theta": {"value": 0.0, "rate": 0.0}, "psi": {"value": 0.0, "rate": 1.0}}
+    answer = ask(scene="spherical-pendulum", initial=at_the_pole)
+    assert (answer["status"], answer["condition"]) == ("singular_mass_matrix", None)
+
+
+def test_friction_has_no_digits_beyond_what_doubles_hold() -> None:
+    """However large it is: 10⁻¹² of the largest is left to rounding, and three digits more are told."""
+    floor = {"name": "floor", "kind": "friction", "coordinate": "x", "force": "m*g*(1 + exp(-abs(dot(x))))/3"}
+    scene = document({"x": (0.0, 9.0)}, {"m": 7e3, "g": 9.81}, {"block": ("m", ["x", "0"])}, [floor])
+    told = ask(scene=scene, include=["loads"], samples=101)["friction"]["floor"]
+    places = math.ceil(12 - math.log10(max(map(abs, told["largest"])))) + 3
+    for name in ("force", "largest"):
+        assert [value for value in told[name] if value != round(value, places)] == []
 
 
 def test_friction_is_told_beside_what_could_hold() -> None:

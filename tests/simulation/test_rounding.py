@@ -75,6 +75,12 @@ def test_significant_digits(value: float, digits: int, expected: float) -> None:
     assert significant(np.array([value, 1.0]), digits).tolist() == [expected, 1.0]
 
 
+@pytest.mark.parametrize(("value", "shown"), [(123456.0, 123000.0), (0.00123456, 0.00123), (-9.996, -10.0), (0.0, 0.0)])
+def test_numbers_for_people_have_three_digits(value: float, shown: float) -> None:
+    assert short(value) == shown
+    assert short(value, 15) == value
+
+
 def test_sample_times_are_the_shortest_decimals() -> None:
     times = np.linspace(0.0, 10.0, 301)
     assert significant(times, 15).tolist() == [float(f"{t:.15g}") for t in times]

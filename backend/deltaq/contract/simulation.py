@@ -196,5 +196,7 @@ class SimulationAnswer(Answer):
     error: ErrorEstimate | None = None
     t_reached: float = Field(description="when the run ended, in seconds")
     trusted_until: float = Field(description="up to when at least one digit is right")
-    condition: float | None = Field(description="of the mass matrix: largest ratio of a diagonal entry to a pivot")
+    condition: float | None = Field(
+        description="of the mass matrix: largest ratio of a diagonal entry to a pivot; null if it has no inverse"
+    )
     cost: Cost

@@ -14,6 +14,7 @@ from ..mechanics.user_text import plainly
 from ..model.model import Observation
 from .choice import Choice
 from .columns import WRITERS, Column, Writer
+from .constraints import Reactions
 from .derivatives import power
 from .estimate import Estimate
 from .friction import FrictionForce
@@ -51,8 +52,8 @@ def answer(
     parts |= _constrained(request, problem, trajectory)
     if "loads" in request.include and frictions:
         parts["friction"] = _friction(frictions, column)
-    if "multipliers" in request.include and problem.reactions:
-        parts["multipliers"] = _multipliers(problem, trajectory, column)
+    if "multipliers" in request.include and trajectory.reactions:
+        parts["multipliers"] = _multipliers(problem, trajectory.reactions, trajectory.estimate, column)
         parts["reactions"] = _reactions(request.scene, problem)
     return {
         "status": trajectory.outcome.status,
@@ -67,7 +68,7 @@ def answer(
         **parts,
         "t_reached": trajectory.reached,
         "trusted_until": trajectory.trusted_until,
-        "condition": 1.0 / trajectory.conditioning if trajectory.conditioning > 0 else None,
+        "condition": None if trajectory.outcome.status == "singular_mass_matrix" else 1.0 / trajectory.conditioning,
         "cost": _cost(trajectory, compile_time),
     }
 
@@ -165,15 +166,12 @@ def _constrained(request: Request, problem: Problem, trajectory: Trajectory) -> 
     }
 
 
-def _multipliers(problem: Problem, trajectory: Trajectory, column: Writer) -> Document:
+def _multipliers(problem: Problem, reactions: Reactions, found: Estimate | None, column: Writer) -> Document:
     """The multipliers as far as they are unique, and what holds what was released."""
-    reactions, found = trajectory.reactions, trajectory.estimate
-    if reactions is None:
-        return {}
     known = None if found is None else found.multipliers
+    doubts = np.full_like(reactions.multipliers, UNKNOWN_ERROR) if known is None else known
     return {
-        name: column.write(column.shorten(reactions.multipliers[:, k], _doubts(known, k, len(trajectory.times))))
-        for k, name in _unique(problem)
+        name: column.write(column.shorten(reactions.multipliers[:, k], doubts[:, k])) for k, name in _unique(problem)
     }
 
 
@@ -205,10 +203,6 @@ def _unique(problem: Problem) -> list[tuple[int, str]]:
     places, unknown = problem.model.layout.constraints, problem.moved.undetermined if problem.moved else ()
     ordered = [*sorted(range(len(places)), key=places.__getitem__), *range(len(places), len(problem.reactions))]
     return [(k, problem.reactions[k]) for k in ordered if problem.reactions[k] not in unknown]
-
-
-def _doubts(known: Floats | None, k: int, count: int) -> Floats:
-    return np.full(count, UNKNOWN_ERROR) if known is None else known[:, k]
 
 
 def _moved(request: Request, moved: Moved) -> Document | None:

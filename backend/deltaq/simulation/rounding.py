@@ -21,7 +21,7 @@ def rounded(values: Floats, errors: Floats) -> Floats:
     `values` has shape (samples, …), `errors` shape (samples,); returns the shape of `values`.
     """
     decimals = _decimals(errors, MOST_DIGITS + _zeros(values))
-    result = np.array(values, dtype=np.float64)
+    result = values.copy()
     for count in np.unique(decimals[decimals <= EXACT]):
         chosen = decimals == count
         result[chosen] = _with_decimals(result[chosen], int(count))
@@ -75,7 +75,7 @@ def significant(values: Floats, digits: int) -> Floats:
     """
     sizes = np.abs(values)
     leading = np.floor(np.log10(sizes, out=np.zeros(len(sizes)), where=sizes > 0.0))
-    found = np.array(values, dtype=np.float64)
+    found = values.copy()
     for place in np.unique(leading):
         chosen, decimals = leading == place, digits - 1 - int(place)
         if decimals <= EXACT:
