@@ -20,6 +20,7 @@ const WIDTHS = [
   [/^\\nolimits$/, 0],
   [/^\\(sin|tan)$/, 1.24],
   [/^\\sum$/, 1.44],
+  [/^\\int$/, 1],
   [/^\\(cos|det|exp|log)$/, 1.34],
   [/^\\arc(sin|cos|tan)$/, 2.7],
   [/^\\(Rightarrow|to)$/, 1],
@@ -39,8 +40,13 @@ const KINDS = [
   [/^[([]$/, "open"],
   [/^[)\]]$/, "close"],
   [/^[,;]$/, "punct"],
-  [/^\\(sin|cos|tan|det|exp|log|arc(sin|cos|tan))$/, "op"],
+  [/^\\(sin|cos|tan|det|exp|log|int|sum|arc(sin|cos|tan))$/, "op"],
 ];
+/** What is large in a line of its own: above and below the line of writing there, and within a line. */
+const LARGE = /** @type {Record<string, Record<"own" | "within", {height: number, depth: number}>>} */ ({
+  "\\int": { own: { height: 1.36, depth: 0.86 }, within: { height: 0.81, depth: 0.31 } },
+  "\\sum": { own: { height: 1.05, depth: 0.55 }, within: { height: 0.75, depth: 0.25 } },
+});
 export const NOTHING = { width: 0, height: 0, depth: 0 };
 
 /** @template T @param {[RegExp, T][]} table @param {string} token @param {T} other */
@@ -77,11 +83,12 @@ export function beside(atoms, style) {
 }
 
 /** @param {string} token @param {Style} style @returns {Atom} */
-export function letter(token, { scale }) {
+export function letter(token, { scale, display }) {
+  const large = LARGE[token]?.[display ? "own" : "within"];
   const box = {
     width: lookedUp(WIDTHS, token, 0.6),
-    height: lookedUp(HEIGHTS, token, 0.69),
-    depth: lookedUp(DEPTHS, token, 0),
+    height: large?.height ?? lookedUp(HEIGHTS, token, 0.69),
+    depth: large?.depth ?? lookedUp(DEPTHS, token, 0),
   };
   return {
     width: scale * box.width,

@@ -58,7 +58,9 @@ export class Fitting {
   async #giveRows(element) {
     this.#inRows.add(element);
     const late = !this.#rows;
+    if (late) element.dataset.late = "";
     if (late) await this.expectLong();
+    delete element.dataset.late;
     const latex = this.#sources.get(element) ?? "";
     if (this.#rows) this.#rows.tell(element, latex);
     else typeset(element, latex, true); // too wide rather than empty, where the rest of the page has come and this has not

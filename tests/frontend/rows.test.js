@@ -17,6 +17,7 @@ const WIDTHS = [
   ["an index is small", "m_1", 1.33],
   ["classes take no room", "\\htmlClass{q-0}{\\varphi}", 0.65],
   ["columns stand apart", "\\begin{bmatrix} a & b \\\\ c & d \\end{bmatrix}", 3.08],
+  ["an integral stands off", "\\int_{0}^{\\ell} x \\, \\mathrm{d} x", 3.4],
   ["spaces are as wide as they say", "\\qquad\\,", 2.17],
 ];
 for (const [name, latex, wanted] of WIDTHS) {
@@ -26,6 +27,7 @@ for (const [name, latex, wanted] of WIDTHS) {
 const HEIGHTS = [
   "\\frac{\\mathrm{d}}{\\mathrm{d} t}\\left(\\frac{\\partial L}{\\partial \\dot{\\varphi}_1}\\right)", "\\frac{1}{2} m v^2", "m^{2}", "\\ddot{\\varphi}_1",
   "\\begin{bmatrix} a & b \\\\ c & d \\end{bmatrix}", "\\begin{bmatrix} a \\\\ \\frac{a}{b} \\\\ d \\end{bmatrix}", "\\begin{bmatrix} \\frac{1}{2} a \\cos\\varphi \\\\ \\frac{1}{2} a \\sin\\varphi \\\\ \\frac{a}{b} \\end{bmatrix}", "\\left(\\frac{\\frac{a}{b}}{c}\\right)^{2}", "\\sqrt{\\frac{g}{\\ell}}",
+  "\\int_{0}^{\\ell} x", "\\int_{0}^{\\frac{\\pi}{2}} x \\, \\mathrm{d} x", "\\frac{\\int_{0}^{1} x}{2}", "\\sum\\nolimits_{j} x",
 ];
 /** What KaTeX makes of it on the page. @param {string} latex */
 function setHeights(latex) {

@@ -13,6 +13,9 @@ const TRIES = 8;
 /** So many times, two frames each, rows are waited for that are not typeset yet, or are still wider than their place. */
 const PATIENCE = 20;
 
+/** Words and drawings come late, and need more or less room then; so many pixels make no difference. */
+const SLACK = 2;
+
 /** Words and premises as they are, smaller, and only the formulas. */
 const DENSER = ["", "words", "formulas"];
 /**
@@ -30,6 +33,8 @@ const shorter = () => Math.min(window.innerWidth, window.innerHeight);
 /** @param {HTMLElement} root  the page, with a slide or without */
 export function createFilled(root) {
   let last = "";
+  /** Pixels that were left for formulas then. */
+  let left = 0;
   /** @type {readonly Shown[]} */
   let shown = [];
   let asked = 0;
@@ -67,9 +72,10 @@ export function createFilled(root) {
     watch(scroll);
     const room = () =>
       [scroll.clientWidth, scroll.clientHeight, innerWidth, ...shown.map(({ latex }) => latex)].join("\n");
-    if ((room() === last && !anew) || !shown.length || !scroll.clientWidth) return;
+    const same = () => room() === last && Math.abs(measured(scroll).height - left) <= SLACK;
+    if (!shown.length || !scroll.clientWidth || (!anew && same())) return;
     const size = roomiest(slide, scroll);
-    last = room();
+    [last, left] = [room(), measured(scroll).height];
     set(slide, size, 0);
   }
 
@@ -138,6 +144,7 @@ export function createFilled(root) {
   }
 
   document.fonts.addEventListener("loadingdone", () => fill(true));
+  root.addEventListener("grown", () => fill(true));
   /** Called when anything has changed. @param {readonly Shown[]} formulas */
   return (formulas) => {
     shown = formulas;
@@ -153,7 +160,7 @@ const heightOf = (formulas) =>
 
 /** Whether rows of a slide are still to come or to be made to fit. @param {HTMLElement} slide */
 const isUnderWay = (slide) =>
-  slide.querySelector(".scroll .rows > .cell:nth-child(even):empty") !== null ||
+  slide.querySelector(".scroll :is(.rows > .cell:nth-child(even):empty, .formula[data-late])") !== null ||
   [...slide.querySelectorAll(".scroll .formula:not(.wide)")].some((one) => one.scrollWidth > one.clientWidth + 1);
 
 /** How far a drawing in the corner of a slide reaches down into what is scrolled, in pixels. @param {HTMLElement} slide @param {HTMLElement} scroll */
