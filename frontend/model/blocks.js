@@ -1,5 +1,6 @@
 /** Matrices in blocks: [M Aᵀ; A 0] where M and A are written out beside it, and the columns that belong to it. */
 
+import { calledByName } from "./joining.js";
 import { entriesOf, withMatrices } from "./latex.js";
 import { sizeOf } from "./measure.js";
 import { MATRIX, plain } from "./parts.js";
@@ -11,7 +12,9 @@ import { MATRIX, plain } from "./parts.js";
 const CALLED = /^\\mathbf [a-zA-Z](?: _ \w)?$/;
 const BODY = /^\\begin\{bmatrix\}([\s\S]*)\\end\{bmatrix\}$/;
 /** What such a one is equal to where it is one line. */
-const LINE = /^= (?:\\mathrm\{diag\}|\\left)\(/;
+const LINE = /^(?:=|\\approx) (?:\\mathrm\{diag\}|\\left)\(/;
+/** Em: entries that are higher make a matrix of two rows high. */
+const HIGH = 1.5;
 /** Em: a column lies in a line up to this width. */
 const LYING = 16;
 
@@ -97,7 +100,7 @@ export function inBlocks(parts) {
   });
   const names = named.map(({ name }) => name);
   const last = parts.reduce((found, { left }, i) => (names.includes(left) ? i + 1 : found), 0);
-  return linesFirst([...blocks.slice(0, last), ...below, ...blocks.slice(last)].map(inLine));
+  return linesFirst(calledByName([...blocks.slice(0, last), ...below, ...blocks.slice(last)]).map(inLine));
 }
 
 /** Of what is written out one after the other, what is one line first: these share rows. @param {readonly Part[]} parts */
@@ -117,29 +120,32 @@ function linesFirst(parts) {
 const isShort = (column) =>
   sizeOf(lying(column.map(([entry]) => entry))[0]).width <= LYING && lying(column.map(([entry]) => entry)).length === 1;
 
-/** A matrix by itself in one line, where it has one column or nothing but its diagonal. @param {Part} part @param {number} _ @param {readonly Part[]} parts */
-function inLine(part, _, parts) {
+/** A matrix by itself in one line, where it has one column or nothing but its diagonal, and is not written out again. @param {Part} part @param {number} at @param {readonly Part[]} parts */
+function inLine(part, at, parts) {
   const [, matrix] = part.right.match(MATRIX) ?? [];
-  if (
-    !matrix ||
-    !CALLED.test(plain(part.left)) ||
-    parts.some((other) => other !== part && other.right.includes(matrix))
-  )
-    return part;
-  const entries = entriesWithin(matrix);
-  const right = inOneLine(entries);
-  return right ? { ...part, right: `= ${right}` } : part;
+  const called = parts.slice(0, at + 1).reduce((last, { left }) => left || last, "");
+  const again = (/** @type {Part} */ other) => other !== part && plain(other.right).includes(plain(matrix));
+  if (!matrix || !CALLED.test(plain(called)) || (part.left ? parts : parts.slice(0, at)).some(again)) return part;
+  const right = inOneLine(entriesWithin(matrix));
+  return right ? { ...part, right: `${part.right.startsWith("=") ? "=" : "\\approx"} ${right}` } : part;
 }
 
 /** @param {string[][]} entries */
 function inOneLine(entries) {
   const single = entries.every((row) => row.length === 1);
   const diagonal = entries.map((row, i) => row[i] ?? "");
-  const square = entries.length > 2 && entries[0].length === entries.length;
-  const bare = square && entries.every((row, i) => row.every((entry, j) => i === j || entry === "0"));
-  if (bare) return `\\mathrm{diag}(${diagonal.join(",\\, ")})`;
+  const square = entries.length > 1 && entries[0].length === entries.length;
+  const bare = square && entries.every((row, i) => row.every((entry, j) => i === j || plain(entry) === "0"));
+  const high = entries.length > 2 || diagonal.some((entry) => heightOf(entry) > HIGH);
+  if (bare && high) return `\\mathrm{diag}(${diagonal.join(",\\, ")})`;
   const [row, ...more] = single ? lying(entries.map(([entry]) => entry)) : [];
   return row && !more.length && entries.length > 1 ? row : null;
+}
+
+/** @param {string} latex */
+function heightOf(latex) {
+  const { height, depth } = sizeOf(latex);
+  return height + depth;
 }
 
 /** @param {string[][]} column @param {readonly NamedMatrix[]} named */

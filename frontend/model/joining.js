@@ -4,6 +4,7 @@
  * is equivalent to another, stands alone, so that it is always clear what follows from what.
  */
 
+import { withMatrices } from "./latex.js";
 import { isHeavy } from "./linebreak.js";
 import { CALLED, MATRIX, equationsOf, isEquivalent, plain } from "./parts.js";
 
@@ -25,16 +26,16 @@ const NUMERIC = /\\frac(?=\{\d+\}\{\d+\})/g;
  * the one above it says, it is left out.
  * @param {Part[]} parts
  */
-function calledByName(parts) {
-  /** @type {Map<string, string>} */
+export function calledByName(parts) {
+  /** By what is seen of them: terms may have come from elsewhere. @type {Map<string, string>} */
   const names = new Map();
   let name = "";
   return parts.flatMap((part, i) => {
     if (part.left && !isEquivalent(part)) name = part.left;
-    const right = [...names].reduce((text, [matrix, called]) => text.replaceAll(matrix, called), part.right);
+    const right = withMatrices(part.right, (matrix) => names.get(plain(matrix)) ?? matrix);
     const [, matrix] = part.right.match(MATRIX) ?? [];
-    if (matrix && CALLED.test(plain(name)) && !names.has(matrix)) {
-      names.set(matrix, name);
+    if (matrix && CALLED.test(plain(name)) && !names.has(plain(matrix))) {
+      names.set(plain(matrix), name);
       return [part];
     }
     return isEquivalent(part) && right !== part.right && plain(right) === plain(parts[i - 1]?.right ?? "")

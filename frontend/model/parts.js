@@ -11,7 +11,7 @@ const ARROW = /^(?:\s|\\[,;:!])*\\(?:Longleftrightarrow|Rightarrow)(?:\s|\\[,;:!
 /** A remark on the equation before it: which coordinates it holds for. */
 const REMARK = /^\\quad\s*\(/;
 /** A matrix by itself, behind what it is equal to, and what it is called. */
-export const MATRIX = /^=\s*(\\begin\{bmatrix\}(?:(?!\\begin\{bmatrix\})[\s\S])*\\end\{bmatrix\})$/;
+export const MATRIX = /^(?:=|\\approx)\s*(\\begin\{bmatrix\}(?:(?!\\begin\{bmatrix\})[\s\S])*\\end\{bmatrix\})$/;
 export const CALLED = /^\\mathbf [A-Z](?: _ \w)?$/;
 
 /** @param {Row} row @returns {Part} */

@@ -49,6 +49,16 @@ const law = (/** @type {string} */ position, /** @type {string} */ rate) =>
 /** @type {[string, string, string][]} */
 const CASES = [
   [
+    "a matrix with nothing but its diagonal is one line, behind what it is equal to, and called by its name below",
+    "\\mathbf{K} &\\approx \\left.\\frac{\\partial f}{\\partial q}\\right|_{0} \\\\ &\\approx \\begin{bmatrix} \\frac{a}{b} & 0 \\\\ 0 & \\htmlClass{t-1-2-3}{\\frac{c}{b}} \\end{bmatrix} \\\\ & \\mathbf{K}\\,x = 0 \\\\ \\;\\Longleftrightarrow\\; & \\begin{bmatrix} \\frac{a}{b} & 0 \\\\ 0 & \\frac{c}{b} \\end{bmatrix}\\,x = 0",
+    "\\mathbfK\\approx\\left.\\frac\\partialf\\partialq\\right|_0\\approxdiag(\\fracab,\\fraccb)\\mathbfKx=0",
+  ],
+  [
+    "a small matrix of two rows stays one",
+    "\\mathbf{M} &= \\left.\\mathbf{B}\\right|_{0} \\\\ &= \\begin{bmatrix} a & 0 \\\\ 0 & c \\end{bmatrix}",
+    "\\mathbfM=\\left.\\mathbfB\\right|_0=\\beginbmatrixa&0\\\\0&c\\endbmatrix",
+  ],
+  [
     "functions are letters, and what these stand for is told",
     `E &= a \\sin${psi} \\cos^{2}${psi} \\sin(2 ${psi})`,
     "E=as_\\psic_\\psi^2s_2\\psis_\\alpha=\\sin\\alpha,c_\\alpha=\\cos\\alpha",
