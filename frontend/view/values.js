@@ -67,6 +67,7 @@ function row(slider, { state, session, t }) {
       <input type="range" aria-label=${label} min=${slider.min} max=${slider.max} step=${slider.step}
         style="--filled:${filled}" .value=${live(String(slider.value))} @input=${moved}>
       <input type="number" aria-label=${`${label} (${unitText(slider.unit)})`} min=${bound(slider.least)} max=${bound(slider.most)} step="any"
+        style="--digits:${textOf(slider, slider.value).length}"
         aria-describedby=${hint ? `hint-${slider.key}` : nothing} .value=${settled(textOf(slider, slider.value))} @change=${typed}>
       <span class="unit">${unitText(slider.unit)}</span>
       <span class="hint" id=${`hint-${slider.key}`} role="status">${hint}</span>

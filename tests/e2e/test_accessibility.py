@@ -19,11 +19,14 @@ pytestmark = pytest.mark.e2e
 
 TAGS = ["wcag2a", "wcag2aa", "wcag21a", "wcag21aa", "wcag22aa"]
 # Formulas on keys are symbols, not labels that could be spoken: understanding WCAG 2.5.3, "mathematical formulas".
-# Handles of places are where these are, however close to each other: WCAG 2.5.8, "essential".
+# Handles of places are for keys alone and let every pointer through, which takes the nearest place: WCAG 2.5.8 is about
+# targets of pointers, and axe-core does not ask whether they are any.
 SYMBOLS = {"label-content-name-mismatch": ".key-cap", "target-size": ".handle"}
 AXE = """async ([type, values, symbols]) => {
     const { violations } = await axe.run(document, { runOnly: { type, values } });
-    const excused = (id, target) => symbols[id] && document.querySelector(target)?.matches(symbols[id]);
+    const reached = (one) => getComputedStyle(one).pointerEvents !== 'none';
+    const excused = (id, target) => [...document.querySelectorAll(target)].some(
+        (one) => symbols[id] && one.matches(symbols[id]) && !(id === 'target-size' && reached(one)));
     return violations.flatMap(({ id, nodes }) => nodes
         .filter(({ target }) => !excused(id, target[0]))
         .map(({ target, failureSummary }) => `${id} at ${target.join(' ')}: ${failureSummary}`));

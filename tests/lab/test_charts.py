@@ -225,6 +225,7 @@ def test_every_way_to_end_has_its_words_and_no_word_is_left_over() -> None:
     [
         pytest.param(None, "–", id="none"),
         pytest.param(0.0, "0", id="zero"),
+        pytest.param(-0.0, "0", id="zero from below"),
         pytest.param(1.5, "1,5", id="comma"),
         pytest.param(7, 7, id="whole"),
         pytest.param("dop853", "dop853", id="word"),

@@ -74,6 +74,7 @@ export function createFilled(root) {
       [scroll.clientWidth, scroll.clientHeight, innerWidth, ...shown.map(({ latex }) => latex)].join("\n");
     const same = () => room() === last && Math.abs(measured(scroll).height - left) <= SLACK;
     if (!shown.length || !scroll.clientWidth || (!anew && same())) return;
+    delete slide.dataset.tight;
     const size = roomiest(slide, scroll);
     [last, left] = [room(), measured(scroll).height];
     set(slide, size, 0);
@@ -135,8 +136,13 @@ export function createFilled(root) {
   /** What came out higher than was estimated becomes smaller, when all of it is there. @param {HTMLElement} slide @param {number} size @param {number} tried @param {number} [waited] */
   function check(slide, size, tried, waited = 0) {
     if (isUnderWay(slide) && waited < PATIENCE) return later(() => check(slide, size, tried, waited + 1));
-    const scroll = slide.querySelector(".scroll");
+    const scroll = /** @type {HTMLElement | null} */ (slide.querySelector(".scroll"));
     const over = scroll ? scroll.scrollHeight - scroll.clientHeight : 0;
+    if (scroll && over > 1 && slide.dataset.tight === undefined) {
+      slide.dataset.tight = "";
+      left = measured(scroll).height;
+      return later(() => check(slide, size, tried));
+    }
     const part = Math.min(SMALLER, 1 - over / Math.max(1, heightOf(slide.querySelectorAll(".scroll .formula"))));
     const smaller = Math.max(bounds(shorter()).least, size * part);
     if (over > 1 && tried < TRIES && smaller < size) set(slide, smaller, tried + 1);

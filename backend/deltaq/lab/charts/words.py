@@ -61,6 +61,6 @@ def taken(measured: Mapping[str, Any], say: Say) -> str:
 
 
 def _written(number: float, language: str) -> str:
-    digits, _, power = f"{number:.3g}".partition("e")
+    digits, _, power = f"{number or 0.0:.3g}".partition("e")  # never a negative zero
     shown = digits.replace("-", "−").replace(".", "," if language in COMMA else ".")
     return f"{shown}·10{str(int(power)).translate(SUPERSCRIPTS)}" if power else shown
