@@ -31,8 +31,10 @@ MEASURE = """() => {
             .filter(one => one.scrollWidth > one.clientWidth + 1).length,
         root: parseFloat(getComputedStyle(document.documentElement).fontSize)};
 }"""
+# With the tools, which come after the first formula: they tell what the marks on terms mean.
 AT_REST = """step =>
     document.querySelector('.slide[data-filled] .step, .slide .step:not(:has(.formula))')?.dataset.step === step
+    && document.querySelector('.slide .why') !== null
 """
 
 
