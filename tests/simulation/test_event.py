@@ -221,3 +221,34 @@ def test_an_event_that_is_reached_as_the_motion_begins_has_happened(angle: float
     else:
         with pytest.raises(SceneError, match="event-at-start"):
             run(asked)
+
+
+@pytest.mark.parametrize(
+    ("gap", "offset", "starts"),
+    [
+        pytest.param(-0.5e-11, 0.0, True, id="touching"),
+        pytest.param(-2e-11, 0.0, False, id="behind the wall"),
+        pytest.param(-500e-11, 1000.0, True, id="touching, as far as 1000 tells"),
+        pytest.param(-2000e-11, 1000.0, False, id="behind it even there"),
+        pytest.param(-0.5e-11, -0.001, True, id="near the origin as at 1"),
+    ],
+)
+def test_a_contact_may_begin_as_deep_as_rounding_goes(gap: float, offset: float, starts: bool) -> None:
+    """10⁻¹¹ of the coordinates, or of 1 m where they are smaller."""
+    wall = {"name": "wall", "value": f"x - ({offset + abs(gap)!r})", "then": "bounce", "restitution": "1/2"}
+    document = write_scene(oscillator("0", x=offset, u=1.0)) | {"events": [wall]}
+    if starts:
+        assert run({"scene": document, "t_end": 0.1})["status"] == "ok"
+    else:
+        with pytest.raises(SceneError, match="event-at-start"):
+            run({"scene": document, "t_end": 0.1})
+
+
+@pytest.mark.parametrize("length", [80, 81, 300])
+def test_an_endless_event_is_told_by_its_beginning(length: int) -> None:
+    value = "x - 1" + " " * (length - 9) + " + 0"
+    document = write_scene(oscillator("0", x=0.5, u=1.0)) | {"events": [{"name": "wall", "value": value}]}
+    with pytest.raises(SceneError) as caught:
+        run({"scene": document, "t_end": 0.1})
+    (problem,) = caught.value.problems
+    assert problem.parameters["value"] == value[:80]

@@ -11,13 +11,14 @@ import base64
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from types import MappingProxyType
+from typing import TypeAlias
 
 import numpy as np
 
 from .problem import Floats
 from .rounding import rounded, rounded_to_bits
 
-Column = list[float] | str
+Column: TypeAlias = list[float] | str
 
 
 @dataclass(frozen=True)

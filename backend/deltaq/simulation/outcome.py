@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from types import MappingProxyType
+from typing import TypeAlias
 
 from ..vocabulary import RungStatus, Status
 from .kernels.motion import (
@@ -24,7 +25,7 @@ from .kernels.motion import (
     UNSETTLED,
 )
 
-Number = str | int | float
+Number: TypeAlias = str | int | float
 # No kernel says so: of runs that go on behind events; of those whose steps are too short to come anywhere.
 NO_DIRECTION, OUT_OF_REACH = UNSETTLED + 1, UNSETTLED + 2
 
