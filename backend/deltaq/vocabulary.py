@@ -43,7 +43,14 @@ SearchEnd = Literal["budget", "continuum", "singular", "contacts"]
 # spent, its time was over, it failed, or it is not made for scenes with constraints, or on rates; and of multipliers
 # written out: they are too long or too many.
 OptionalPart = Literal[
-    "multipliers", "model", "equilibria", "small-motions", "integrals", "relative-equilibria", "canonical"
+    "multipliers",
+    "model",
+    "equilibria",
+    "contact-equilibria",
+    "small-motions",
+    "integrals",
+    "relative-equilibria",
+    "canonical",
 ]
 Missing = Literal["later", "budget", "time", "failed", "constraints", "rates", "long", "many", "ended"]
 # What is added to the name of a part that is missing for a reason of the scene's own, to name the sentence about it.

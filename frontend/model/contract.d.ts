@@ -2342,6 +2342,56 @@ export interface components {
             forces: components["schemas"]["CoordinateFormula"][];
         };
         /**
+         * ContactEquilibrium
+         * @description A state of rest on closed contacts, which push.
+         */
+        ContactEquilibrium: {
+            /**
+             * Values
+             * @description a coordinate that is missing may have any value
+             */
+            values: {
+                [key: string]: components["schemas"]["EquilibriumValue"];
+            };
+            /** Contacts */
+            contacts: components["schemas"]["ContactReaction"][];
+            /**
+             * Multipliers
+             * @description of constraints, which hold the system as well
+             * @default {}
+             */
+            multipliers: {
+                [key: string]: components["schemas"]["EquilibriumValue"];
+            };
+            /**
+             * Exact
+             * @description whether the values are closed forms in the parameters
+             */
+            exact: boolean;
+            /**
+             * Free
+             * @description coordinates that may have any value; where they are among the values, this stands for a family
+             */
+            free: string[];
+            /**
+             * Stability
+             * @enum {string}
+             */
+            stability: "stable" | "undecided" | "unstable";
+        };
+        /**
+         * ContactReaction
+         * @description A closed contact, and the reaction with which it pushes: what ∂g/∂q is multiplied by.
+         */
+        ContactReaction: {
+            /**
+             * Contact
+             * @example impact
+             */
+            contact: string;
+            reaction: components["schemas"]["EquilibriumValue"];
+        };
+        /**
          * ContactResult
          * @description A contact that closes where its gap g(q, t) falls to zero.
          */
@@ -2808,6 +2858,11 @@ export interface components {
             conserved: components["schemas"]["ConservedQuantity"][];
             /** Equilibria */
             equilibria: components["schemas"]["Equilibrium"][];
+            /**
+             * Contact Equilibria
+             * @default []
+             */
+            contact_equilibria: components["schemas"]["ContactEquilibrium"][];
             /** @description null where the laws depend on time */
             equilibrium_search: components["schemas"]["EquilibriumSearch"] | null;
             symmetry_search: components["schemas"]["SymmetrySearch"];
@@ -3463,14 +3518,14 @@ export interface components {
         };
         /**
          * EquilibriumSearch
-         * @description Whether the equilibria are all there are.
+         * @description Whether the equilibria are all there are, those on closed contacts included.
          */
         EquilibriumSearch: {
             /** Complete */
             complete: boolean;
             /**
              * Count
-             * @description how many there are; the first 32 are listed
+             * @description how many there are with all contacts open; the first 32 are listed
              */
             count: number;
             /**
@@ -4742,7 +4797,7 @@ export interface components {
              * @description `model` is all of it
              * @enum {string}
              */
-            part: "multipliers" | "model" | "equilibria" | "small-motions" | "integrals" | "relative-equilibria" | "canonical";
+            part: "multipliers" | "model" | "equilibria" | "contact-equilibria" | "small-motions" | "integrals" | "relative-equilibria" | "canonical";
             /**
              * Reason
              * @description `later`: ask for it; `budget`: its operations are spent; `time`: its time is; `failed`: our bug; others are of the scene's own

@@ -59,6 +59,7 @@ async def test_every_scene_is_derived(client: httpx.AsyncClient, scene: str, lan
         "conserved",
         "symmetry_search",
         "equilibria",
+        "contact_equilibria",
         "equilibrium_search",
         "jacobi_energy",
         "routh",

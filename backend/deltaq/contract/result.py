@@ -311,11 +311,31 @@ class Equilibrium(Answer):
     complex_modes: tuple[ComplexMode, ...] = Field(description="elsewhere")
 
 
+class ContactReaction(Answer):
+    """A closed contact, and the reaction with which it pushes: what ∂g/∂q is multiplied by."""
+
+    contact: str = Field(examples=["impact"])
+    reaction: EquilibriumValue
+
+
+class ContactEquilibrium(Answer):
+    """A state of rest on closed contacts, which push."""
+
+    values: dict[str, EquilibriumValue] = Field(description="a coordinate that is missing may have any value")
+    contacts: tuple[ContactReaction, ...]
+    multipliers: dict[str, EquilibriumValue] = Field({}, description="of constraints, which hold the system as well")
+    exact: bool = Field(description="whether the values are closed forms in the parameters")
+    free: tuple[str, ...] = Field(
+        description="coordinates that may have any value; where they are among the values, this stands for a family"
+    )
+    stability: Stability
+
+
 class EquilibriumSearch(Answer):
-    """Whether the equilibria are all there are."""
+    """Whether the equilibria are all there are, those on closed contacts included."""
 
     complete: bool
-    count: int = Field(description="how many there are; the first 32 are listed")
+    count: int = Field(description="how many there are with all contacts open; the first 32 are listed")
     range: dict[str, tuple[float, float]] = Field(
         description="coordinates that were searched between two values; angles go once around, others are unbounded"
     )
@@ -339,6 +359,7 @@ class DerivationResult(Answer):
     forcing: Forcing
     conserved: tuple[ConservedQuantity, ...]
     equilibria: tuple[Equilibrium, ...]
+    contact_equilibria: tuple[ContactEquilibrium, ...] = ()
     equilibrium_search: EquilibriumSearch | None = Field(description="null where the laws depend on time")
     symmetry_search: SymmetrySearch
     jacobi_energy: JacobiEnergy

@@ -30,6 +30,7 @@ from .equilibria import (
     Equilibrium,
     Search,
     domain,
+    free_coordinates,
     is_angle,
     is_within,
     search,
@@ -63,7 +64,12 @@ def bound_search(system: System) -> Search | None:
     """The search with holonomic constraints; None where time is in the laws or the constraints."""
     if not is_autonomous(system):
         return None
-    laws, budget = _laws(system), Budget(SHARE * OPERATIONS)
+    return without_contacts(system, within(system, Budget(SHARE * OPERATIONS)))
+
+
+def within(system: System, budget: Budget) -> Search:
+    """The search with all contacts open, with what is left of a budget."""
+    laws = _laws(system)
     equations = [equation.xreplace(dict(system.parameter_values)) for equation in laws.equations]
     solver = Solver(_domain(system, laws.unknowns), system.is_zero, budget, BRANCHES)
     solved = solver.solve(equations, laws.unknowns)
@@ -75,9 +81,7 @@ def bound_search(system: System) -> Search | None:
     ranges = {q: domain(system).ranges[system.q(q)] for q in system.free if system.q(q) in solved.ranged}
     reason = "budget" if budget.left <= 0 else "continuum" if len(regular) == len(known) else "singular"
     beyond = len(regular) - len(found)
-    return without_contacts(
-        system, Search(found[:MOST], len(found), complete, ranges, "" if complete else reason, beyond)
-    )
+    return Search(found[:MOST], len(found), complete, ranges, "" if complete else reason, beyond)
 
 
 @dataclass(frozen=True)
@@ -102,10 +106,11 @@ def _laws(system: System) -> _Laws:
 @cached_method
 def smooth_conditions(system: System) -> tuple[sp.Expr, ...]:
     """g of every constraint; ±(s − √D) of a positive s as ±(s² − D)/2s, with the same zeros and the same λ there."""
-    return tuple(system.display(_without_root(system, system.condition(each))) for each in system.conditions)
+    return tuple(system.display(without_root(system, system.condition(each))) for each in system.conditions)
 
 
-def _without_root(system: System, value: sp.Expr) -> sp.Expr:
+def without_root(system: System, value: sp.Expr) -> sp.Expr:
+    """±(s − √D) of a positive s as ±(s² − D)/2s, with the same zeros and the same slopes there; others as they are."""
     moving = set(map(system.q, system.free))
     still = [term for term in sp.Add.make_args(value) if not term.free_symbols & moving]
     rest, length = value - sp.Add(*still), sp.Add(*still)
@@ -145,7 +150,8 @@ def _recognized(system: System, laws: _Laws, solution: Solution) -> Equilibrium 
     free = tuple(q for q in system.free if system.q(q) in solution.free)
     if any(each in solution.free for each in system.multipliers):
         return None
-    held = {q: sp.Rational(repr(x)) for q, x in solution.values.items() if q in solution.free}
+    loose = set(map(system.q, free_coordinates(system)))  # which nothing depends on
+    held = {q: sp.Rational(repr(x)) for q, x in solution.values.items() if q in solution.free and q not in loose}
     sought = {q: x for q, x in solution.values.items() if q not in solution.free}
     angles = frozenset(q for q in sought if q.name in system.free and is_angle(system, q))
     known = {**system.parameter_values, **held}

@@ -141,11 +141,11 @@ def linearizations(system: System) -> tuple[Linearization, ...]:
 
 
 def _afforded(system: System, equilibrium: Equilibrium) -> Linearization | None:
-    about = _on_constraints if system.conditions else _about
+    about = on_constraints if system.conditions else _about
     return system.effort.afford("small-motions", lambda: about(system, equilibrium), None)
 
 
-def _on_constraints(system: System, equilibrium: Equilibrium) -> Linearization:
+def on_constraints(system: System, equilibrium: Equilibrium) -> Linearization:
     """Small motions that keep the constraints."""
     law = projected(system, equilibrium, damping_at_rest(system))
     with ctx.workprec(BITS):

@@ -15,9 +15,10 @@ from .formula import Named, Quantity
 from .hamiltonian import hamiltonian as hamiltonian_of
 from .linearization import Linearization
 from .matrix_form import is_autonomous
-from .optional import motions_of, reduction_of, search_of, steady_motions_of, symmetries_of
+from .optional import contact_search_of, motions_of, reduction_of, search_of, steady_motions_of, symmetries_of
 from .rules import (
     canonical_equations,
+    contact_equilibrium,
     cyclic_coordinate,
     eigenfrequencies,
     equilibrium,
@@ -65,9 +66,13 @@ def _equilibria(system: System) -> Iterator[Step]:
         if linear.spectrum is not None:
             yield linearization.apply(system, linear, number)
             yield eigenfrequencies.apply(system, linear, linear.spectrum, number)
-    others = tuple(equilibrium.apply(system, each, k) for k, each in enumerate(found[MOST_SHOWN:], MOST_SHOWN + 1))
+    others = [equilibrium.apply(system, each, k) for k, each in enumerate(found[MOST_SHOWN:], MOST_SHOWN + 1)]
+    resting = contact_search_of(system)
+    steps = [contact_equilibrium.apply(system, each, k) for k, each in enumerate(resting.found if resting else (), 1)]
+    yield from steps[:MOST_SHOWN]
+    others += steps[MOST_SHOWN:]
     if known and (others or known.ranges or not known.complete):
-        yield equilibrium_search.apply(system, known, min(len(found), MOST_SHOWN), others)
+        yield equilibrium_search.apply(system, known, resting, min(len(found), MOST_SHOWN), tuple(others))
 
 
 def _conditions(system: System, linear: Linearization, number: int) -> Iterator[Step]:

@@ -9,6 +9,7 @@ from __future__ import annotations
 from ..vocabulary import OptionalPart
 from .bound_equilibria import is_sought, searched
 from .conservation import Reduction, reduction
+from .contact_equilibria import ContactSearch, contact_search
 from .equilibria import Search
 from .generator import Symmetry
 from .linearization import Linearization, linearizations
@@ -26,6 +27,11 @@ def search_of(system: System) -> Search | None:
     if found and found.beyond:
         system.effort.left_out["equilibria"] = "ended"
     return found
+
+
+def contact_search_of(system: System) -> ContactSearch | None:
+    """The search for equilibria on closed contacts; None where there are none."""
+    return system.effort.afford("contact-equilibria", lambda: contact_search(system), None)
 
 
 def motions_of(system: System) -> tuple[Linearization, ...]:

@@ -15,6 +15,7 @@ from ..vocabulary import CurlOutcome, GeneratorFamily
 from . import provenance
 from .conditions import Conditions, conditions
 from .conservation import Reduction, cyclic, is_energy, jacobi_energy, jacobi_energy_rate
+from .contact_equilibria import ContactSearch
 from .displacement import meaning
 from .equilibria import Search
 from .formula import Explicit, Term
@@ -23,7 +24,7 @@ from .impacts import Contact, Sticking, contacts, sticking
 from .linearization import Linearization
 from .matrix_form import forcing, left_side, mass_matrix
 from .multipliers import multipliers
-from .optional import motions_of, reduction_of, search_of, steady_motions_of, symmetries_of
+from .optional import contact_search_of, motions_of, reduction_of, search_of, steady_motions_of, symmetries_of
 from .released import Release
 from .rules.curl_test import outcome
 from .space import motions
@@ -115,6 +116,7 @@ class Result:
     loads: tuple[LoadPotential, ...]
     conserved: tuple[Conserved, ...] = ()
     equilibria: tuple[Told, ...] = ()
+    resting: ContactSearch | None = None
     search: Search | None = None
     routh: Reduction | None = None
     steady: tuple[SteadyMotion, ...] = ()
@@ -138,6 +140,7 @@ def completed(system: System, result: Result) -> Result:
         conserved=tuple(_conserved(system)),
         equilibria=tuple(Told(linear, conditions(system, linear)) for linear in motions_of(system)),
         search=search_of(system),
+        resting=contact_search_of(system),
         routh=reduction_of(system),
         steady=steady_motions_of(system),
         generators=_searched(system),

@@ -9,6 +9,7 @@ from flint import arb
 
 from ..derivation.conditions import Comparison, Conditions
 from ..derivation.conservation import Reduction
+from ..derivation.contact_equilibria import ContactEquilibrium, ContactSearch
 from ..derivation.equilibria import Search
 from ..derivation.linearization import Linearization
 from ..derivation.program import number
@@ -32,8 +33,7 @@ def equilibrium(told: Told, scene: Scene, write: ExpressionWriter) -> Document:
     """
     linear = told.linear
     free = [coordinate.name for coordinate in scene.free]
-    point = {parameter.name: arb(parameter.value) for parameter in scene.parameters}
-    point |= {coordinate.name: arb(coordinate.value) for coordinate in scene.free}
+    point = _start(scene)
     held = linear.equilibrium.reactions
     spectrum = linear.spectrum if linear.spectrum and linear.spectrum.is_representable else None
     return {
@@ -50,6 +50,31 @@ def equilibrium(told: Told, scene: Scene, write: ExpressionWriter) -> Document:
         "modes": [_mode(mode, linear, free) for mode in spectrum.modes] if spectrum else [],
         "complex_modes": [_complex_mode(mode, linear, free) for mode in spectrum.complex_modes] if spectrum else [],
     }
+
+
+def contact_equilibrium(found: ContactEquilibrium, scene: Scene, write: ExpressionWriter) -> Document:
+    """A state of rest on closed contacts: where, with which reactions, and how stable."""
+    place, point = found.equilibrium, _start(scene)
+
+    def told(value: sp.Expr) -> Document:
+        return _written(value, point, write, exact=place.exact)
+
+    pairs = zip(found.contacts, found.reactions, strict=True)
+    held = {each.name: told(value) for each, value in place.reactions.items()}
+    return {
+        "values": {q.name: told(value) for q, value in place.values.items()},
+        "contacts": [{"contact": event.name, "reaction": told(value)} for event, value in pairs],
+        **({"multipliers": held} if held else {}),
+        "exact": place.exact,
+        "free": list(place.free),
+        "stability": found.stability,
+    }
+
+
+def _start(scene: Scene) -> dict[str, arb]:
+    """Parameters, and free coordinates where the scene starts."""
+    point = {parameter.name: arb(parameter.value) for parameter in scene.parameters}
+    return point | {coordinate.name: arb(coordinate.value) for coordinate in scene.free}
 
 
 def _conditions(found: Conditions | None, write: ExpressionWriter) -> Document | None:
@@ -75,18 +100,20 @@ def _band(linear: Linearization, point: Mapping[str, arb], write: ExpressionWrit
     return {name: _written(value, point, write, exact=linear.band.exact) for name, value in ends.items()}
 
 
-def search(found: Search | None) -> Document | None:
+def search(found: Search | None, resting: ContactSearch | None) -> Document | None:
     """How many equilibria there are, where they were sought, and whether that is all; none where time is in the laws.
 
     `range` holds the coordinates that were searched between two values, not everywhere.
     """
     if found is None:
         return None
+    is_all = found.complete or (found.left_out == "contacts" and resting is not None and resting.complete)
+    ranges = {**(resting.ranges if resting else {}), **found.ranges}
     return {
-        "complete": found.complete,
+        "complete": is_all,
         "count": found.count,
-        "range": {name: list(map(_float, ends)) for name, ends in found.ranges.items()},
-        "left_out": found.left_out or None,
+        "range": {name: list(map(_float, ends)) for name, ends in ranges.items()},
+        "left_out": None if is_all else found.left_out,
     }
 
 

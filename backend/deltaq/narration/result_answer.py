@@ -14,14 +14,14 @@ from ..derivation.result_history import Origins
 from ..derivation.step import Origin
 from .constraint_answer import constraint, contact, reaction, releasable, sticking
 from .expression_writer import ExpressionWriter
-from .model_answer import equilibrium, load, own_symbols, routh, search, steady
+from .model_answer import contact_equilibrium, equilibrium, load, own_symbols, routh, search, steady
 
 Document = dict[str, object]
 
 
 def written(result: Result, origins: Mapping[str, Mapping[str, Origins]], write: ExpressionWriter) -> Document:
     """The `result` of the answer to POST /derivations."""
-    sums = _Sums(result, origins, write)
+    sums, resting = _Sums(result, origins, write), result.resting.found if result.resting else ()
     return {
         "positions": {name: write.vector(value) for name, value in result.positions.items()},
         "points": {name: write.vector(value) for name, value in result.points.items()},
@@ -44,7 +44,8 @@ def written(result: Result, origins: Mapping[str, Mapping[str, Origins]], write:
         "conserved": [sums.conserved(each) for each in result.conserved],
         "symmetry_search": {"generators": list(result.generators)},
         "equilibria": [equilibrium(each, result.scene, write) for each in result.equilibria],
-        "equilibrium_search": search(result.search),
+        "contact_equilibria": [contact_equilibrium(each, result.scene, write) for each in resting],
+        "equilibrium_search": search(result.search, result.resting),
         "jacobi_energy": {**sums.sum("jacobi_energy", result.jacobi_energy), "equals_energy": result.is_energy},
         "loads": [load(each, write) for each in result.loads],
         "symbols": own_symbols(result, write),

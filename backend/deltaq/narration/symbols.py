@@ -47,6 +47,7 @@ SYMBOLS: Mapping[str, tuple[str, str]] = {
     "gap": ("g_{{N}}{of}", ""),
     "gap-rate-behind": (r"\dot g_{{N}}^{{+}}", ""),
     "impulse": (r"\Lambda{of}", ""),
+    "contact-reaction": (r"\lambda_{{N}}{of}", ""),
     "constraint-impulse": (r"\Lambda{of}", "constraint-{name}"),
     "momentum-jump": (r"\Delta p_{{{i}}}", ""),
     "momentum-behind": ("p_{{{i}}}^{{+}}", ""),

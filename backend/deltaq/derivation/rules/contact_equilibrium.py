@@ -1,0 +1,97 @@
+"""Rest on a closed contact: its reaction balances the other forces, and it pushes, f₀ + λ_N ∂g_N/∂q = 0 with λ_N > 0.
+
+Virtual displacements that open the contact are allowed as well; along them the forces may do no positive work.
+Source: Lanczos, The Variational Principles of Mechanics, ch. III.6 (Fourier's inequality).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import sympy as sp
+
+from ...mechanics.event import Event
+from ..contact_equilibria import ContactEquilibrium
+from ..equilibria import Equilibrium
+from ..formula import AtEquilibrium, Explicit, Formula, Inserted, Named, Plus, Quantity, Rounded, Stack, Term, Times
+from ..impacts import bouncing, slopes
+from ..matrix_form import forces_at_rest
+from ..step import Relation, Step
+from ..system import System
+from ._shape import balanced, numbers, shaped, zero
+from .contact_gap import RULE as GAP
+from .contact_gap import named_gap, slope_of
+
+RULE = "contact-equilibrium"
+
+
+def apply(system: System, found: ContactEquilibrium, number: int) -> Step:
+    """Where it is, that the contacts are closed there, the reactions that hold it, and that they push."""
+    place = found.equilibrium
+    there = {**place.values, **place.reactions, **{system.rate(q): system.zero for q in system.free}}
+    lines = (
+        *(_place(system, place, q) for q in system.free if system.q(q) in place.values),
+        *(Relation((_at(system, place, named_gap(system, each), there), zero(1))) for each in found.contacts),
+        *(_multiplier(symbol, value, place) for symbol, value in place.reactions.items()),
+        *_reactions(system, found),
+        Relation((_at(system, place, _balance(system, found), there), zero(len(system.free)))),
+    )
+    about = {"outcome": _outcome(found), "number": str(number), "coordinate": ", ".join(place.free)}
+    premises = tuple(f"{GAP}:{event.name}" for event in found.contacts)
+    return Step(RULE, str(number), lines, system.constraint_sources, about, premises=premises)
+
+
+def _outcome(found: ContactEquilibrium) -> str:
+    is_family = found.stability == "stable" and bool(found.equilibrium.free)
+    return "stable-in-the-others" if is_family else found.stability
+
+
+def _at(system: System, place: Equilibrium, law: Formula, there: dict[sp.Symbol, sp.Expr]) -> Formula:
+    at_rest = AtEquilibrium(law, there)
+    return at_rest if place.exact else Inserted(at_rest, numbers(system))
+
+
+def _place(system: System, place: Equilibrium, coordinate: str) -> Relation:
+    value = place.values[system.q(coordinate)]
+    name = Named(Quantity("coordinate", coordinate), value)
+    if place.exact:
+        return Relation((name, Explicit(value)))
+    unit = next(c.unit for c in system.scene.coordinates if c.name == coordinate)
+    return Relation((name, Rounded(sp.sympify(value), unit)), "≈")
+
+
+def _multiplier(symbol: sp.Symbol, value: sp.Expr, place: Equilibrium) -> Relation:
+    name = Inserted(Explicit(symbol), {symbol: value})
+    return Relation((name, Explicit(value))) if place.exact else Relation((name, Rounded(value)), "≈")
+
+
+def _reactions(system: System, found: ContactEquilibrium) -> Iterator[Relation]:
+    """λ_N of each contact, and that it is positive at the scene's values."""
+    for event, value in zip(found.contacts, found.reactions, strict=True):
+        name = _reaction(system, event, value)
+        if found.equilibrium.exact:
+            yield Relation((name, Explicit(value)))
+        else:
+            yield Relation((name, Rounded(value)), "≈")
+        yield Relation((Explicit(system.zero), Inserted(name, numbers(system))), "<")
+
+
+def _reaction(system: System, event: Event, value: sp.Expr) -> Named:
+    return Named(Quantity("contact-reaction", event.name if len(bouncing(system)) > 1 else ""), value)
+
+
+def _balance(system: System, found: ContactEquilibrium) -> Formula:
+    """f + Aᵀλ + Σ λ_N ∂g_N/∂q"""
+    force = balanced(system, shaped("forcing", "vector", forces_at_rest(system)))
+    terms = [
+        Term(Times((_reaction(system, event, value), _gradient(system, event))))
+        for event, value in zip(found.contacts, found.reactions, strict=True)
+    ]
+    return Plus((*(force.terms if isinstance(force, Plus) else (Term(force),)), *terms))
+
+
+def _gradient(system: System, event: Event) -> Formula:
+    """∂g_N/∂q as a column; with one coordinate a number."""
+    along = slopes(system, event)
+    rows = tuple(slope_of(system, event, q) if q in along else Explicit(system.zero) for q in system.free)
+    return rows[0] if len(rows) == 1 else Stack(rows)
