@@ -23,7 +23,9 @@ RULE = "equilibrium-search"
 def apply(system: System, search: Search, resting: ContactSearch | None, shown: int, others: tuple[Step, ...]) -> Step:
     """The ranges, and the equilibria that are not told in full, one below the other."""
     about = {"outcome": _outcome(search, resting), "shown": str(shown), "count": str(search.count)}
-    about |= {"listed": str(len(search.found)), "resting": str(len(resting.found) if resting else 0)}
+    about["listed"] = str(len(search.found))
+    if search.left_out == "contacts":
+        about["resting"] = str(len(resting.found) if resting else 0)
     ranges = {**(resting.ranges if resting else {}), **search.ranges}
     return Step(RULE, "", tuple(_ranges(system, ranges)), (), about, others, premises=("equilibrium-condition",))
 
