@@ -1,9 +1,9 @@
 """How honest the errors of ensembles are: members of scattered starts against heyoka's series in 80-bit numbers.
 
-Run it from the checkout: `python -m tests.benchmarks.bench_ensemble_errors [--motions 60] [--below 0.01]`, with heyoka
+Run it from the checkout: `python -m tests.benchmarks.bench_ensemble_errors [--motions 60] [--margin 3]`, with heyoka
 installed. For families of scenes and tolerances it prints the share of members whose true error is no larger than told
 at any sample, the largest ratio of true to told, and quantiles of told over true (of a member, the medians over its
-samples). `--below` tries another local tolerance of the finer runs, over that of the coarser. Prints; judges nothing.
+samples). `--margin` tries another factor of what neighbours tell. Prints; judges nothing.
 """
 
 from __future__ import annotations
@@ -48,11 +48,11 @@ class Judged:
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--motions", type=int, default=60)
-    parser.add_argument("--below", type=float, default=engine.BELOW)
+    parser.add_argument("--margin", type=float, default=engine.MARGIN)
     parser.add_argument("--seed", default="errors")
     asked = parser.parse_args()
-    engine.BELOW = asked.below
-    print(f"finer runs by {asked.below:g}, load {os.getloadavg()[0]:.1f} on {os.cpu_count()} cores")
+    engine.MARGIN = asked.margin
+    print(f"margin {asked.margin:g}, load {os.getloadavg()[0]:.1f} on {os.cpu_count()} cores")
     print(f"{'family':24}{'tolerance':>10}{'members':>9}{'true ≤ told':>13}{'worst':>8}{'told/true 10/50/90 %':>26}")
     every: list[Judged] = []
     for draw, series in FAMILIES:

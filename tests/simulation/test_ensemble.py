@@ -7,6 +7,8 @@ from typing import Any
 
 import numpy as np
 import pytest
+from scipy.integrate import quad
+from scipy.special import ellipj
 from tests.simulation.scenes import oscillator
 
 from deltaq.errors import Problem, RequestError
@@ -41,6 +43,32 @@ def test_each_run_is_the_motion_alone(name: str) -> None:
         true = np.abs(found.values[index] - alone.values)
         assert np.all(true <= found.errors[index] + alone.estimate.errors[:, None])
         assert true.max() <= 1e-9
+
+
+@pytest.mark.parametrize("tolerance", [1e-5, 1e-8])
+def test_errors_told_cover_the_true_ones_and_are_not_far_from_them(tolerance: float) -> None:
+    """ẍ = −sin x from 0 with the rate u is x = 2 asin(k sn(t, k)), k = u/2 < 1."""
+    rates = np.linspace(0.3, 1.95, 40)
+    problem = problem_of(oscillator("-m*sin(x)", x=0.0, u=1.0), 20.0, 41)
+    starts = np.column_stack([np.zeros(40), rates])
+    found = run_ensemble(Ensemble(problem, starts, np.repeat([problem.parameters], 40, axis=0)), tolerance)
+    sn = np.array([ellipj(found.times, (0.5 * rate) ** 2)[0] for rate in rates])
+    true = np.abs(found.values[:, :, 0] - 2.0 * np.arcsin(0.5 * rates[:, None] * sn))[:, 1:]
+    told = found.errors[:, 1:, 0]
+    assert np.all(true <= told + 1e-13)
+    assert np.median(told / true) <= 10.0
+    assert np.all(found.worst >= told.max(axis=1) / np.pi)
+
+
+def test_a_hill_that_is_thinner_than_a_step_is_seen() -> None:
+    """U = e^(−(x/w)²)/8: a mass that comes with u = 1 goes on as fast, later by ∫ 1/√(u² − 2U) − 1/u dx."""
+    width, starts = 0.016, np.linspace(-1.4, -0.6, 41)
+    force = f"m*x/(4*{width}^2)*exp(-(x/{width})^2)"
+    problem = problem_of(oscillator(force, x=-1.0, u=1.0), 10.0, 11)
+    states = np.column_stack([starts, np.ones(41)])
+    found = run_ensemble(Ensemble(problem, states, np.repeat([problem.parameters], 41, axis=0)), 1e-8)
+    delay = quad(lambda x: 1.0 / np.sqrt(1.0 - 0.25 * np.exp(-((x / width) ** 2))) - 1.0, -0.5, 0.5, points=[0.0])[0]
+    np.testing.assert_allclose(found.values[:, -1, 0], starts + 10.0 - delay, atol=1e-7)
 
 
 def test_runs_do_not_depend_on_their_neighbours() -> None:

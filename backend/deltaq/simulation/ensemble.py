@@ -1,7 +1,7 @@
 """Many motions of one scene together: each with its own initial values and parameters, its own status and error.
 
-Errors are estimated as for one motion, by a second run that is much finer and a little away from it; the estimate of a
-run never falls with time.
+Errors are estimated by what each step did wrong and a neighbour of each motion, which tells what becomes of it
+(`series.neighbour`); the estimate of a run never falls with time.
 """
 
 from __future__ import annotations
@@ -18,14 +18,14 @@ from ..model.recurrences import nudged
 from .audit import Audit
 from .driver import simulate
 from .integration import Flag
-from .kernels.ensemble import Members, integrate_members, make_lanes
+from .kernels.ensemble import Addresses, Members, integrate_members, make_lanes
 from .kernels.motion import FINE
 from .library import get_method
 from .method import Series
 from .outcome import Number, Outcome, outcome_of
 from .pieces import Pieces
 from .problem import Floats, Problem
-from .refinement import BySeries
+from .refinement import APART, FINEST_OF_SERIES, BySeries
 from .rounding import short
 from .run import Steps
 from .series.engine import jet_of_model, lanes_of_host
@@ -33,13 +33,21 @@ from .series.engine import jet_of_model, lanes_of_host
 BLOCK = 64  # motions between which it is looked for others that may go on
 ROUNDS = 3  # of a smaller local tolerance for those that missed theirs
 LOST = 0.5  # an error this large, relative to the size of the coordinate, leaves no digit
-ROUNDING = 2.0**-51
-MARGIN = 2.0  # of the factor for one motion: of many with two runs each, some come close to each other by chance
+ROUNDING = 2.0**-50
+# Times what neighbours tell, and times the change of starts and constants by rounding, of which they tell
+# (tests/benchmarks/bench_ensemble_errors.py).
+MARGIN, NUDGES = 3.0, 2.0
 SCHEME = Series(8)
 AHEAD = 0.1  # the first local tolerance over the tolerance
-# That of the finer run over that of the coarser: with 0.1 a seventh is saved, and one estimate of eight falls short
-# (tests/benchmarks/bench_ensemble_errors.py).
-BELOW = 1e-2
+# The largest step over the span: half of that of a motion with two runs, between whose ends it is looked as well. A
+# round number of steps might lead from one quiet place to another.
+LARGEST: float = 3.0**-3.4
+SMALLER, SMALLEST = 0.1, 1e-6  # a next one over what the error asks for, and over the one before at least
+NEAR, MANY = 5, 1000  # the order of neighbours' series, and the steps up to which it suffices
+# With more steps: the local tolerance of a finer run over that of the other one, and times the factor for one motion;
+# of many with two runs each, some come close to each other by chance.
+BELOW, OF_PAIRS = 1e-2, 2.0
+GRAIN = 5e-12  # below that local tolerance rounding may do as much as the steps, and the one hide the other
 
 
 @dataclass(frozen=True)
@@ -96,20 +104,25 @@ def run_ensemble(
     by one: `simulate` knows how.
     """
     flag = np.zeros(1, dtype=np.int64) if cancelled is None else cancelled
-    tell, refinement = report or (lambda _done: None), _refinement(ensemble)
+    tell = report or (lambda _done: None)
     if needs_single_runs(ensemble):
         return _one_by_one(ensemble, tolerance, flag, tell)
-    resolution = refinement.first(tolerance)
-    found = _pair(ensemble, resolution, tolerance, flag, tell)
+    local = _told_apart(AHEAD * tolerance)
+    found = _run(ensemble, local, tolerance, flag, tell)
     for _ in range(ROUNDS - 1):
         missed = np.flatnonzero([each.status == "tolerance_missed" for each in found.outcomes])
-        if not len(missed) or refinement.is_finest(resolution):
+        if not len(missed) or local <= FINEST_OF_SERIES:
             break
         excess = float(np.nanmax(found.worst[missed])) / tolerance
-        resolution = refinement.next(resolution, excess)
-        again = _pair(ensemble.chosen(missed), resolution, tolerance, flag, lambda _done: None)
+        local = _told_apart(local * max(SMALLER / excess, SMALLEST))
+        again = _run(ensemble.chosen(missed), local, tolerance, flag)
         found = _merged(found, again, missed)
     return found
+
+
+def _told_apart(local: float) -> float:
+    """The largest local tolerance up to that at which rounding cannot hide what the steps do."""
+    return local if local >= GRAIN else FINEST_OF_SERIES
 
 
 def warm(problem: Problem) -> None:
@@ -126,54 +139,69 @@ def needs_single_runs(ensemble: Ensemble) -> bool:
     return not Audit(ensemble.problem, get_method("taylor")).before(1e-6).is_whole
 
 
-def _refinement(ensemble: Ensemble) -> BySeries:
-    """Less is asked of all than of a motion alone: those that miss their tolerance are run anew, and no others."""
-    return BySeries(ensemble.problem.t_end, SCHEME, AHEAD, BELOW)
-
-
-def _pair(
-    ensemble: Ensemble, resolution: float, tolerance: float, flag: Flag, tell: Callable[[int], None]
+def _run(
+    ensemble: Ensemble,
+    local: float,
+    tolerance: float,
+    flag: Flag,
+    tell: Callable[[int], None] = lambda _done: None,
 ) -> EnsembleMotion:
-    """Two runs of all motions, their difference the estimate."""
-    refinement = _refinement(ensemble)
-    coarse, fine = refinement.pair(resolution, Pieces.whole(ensemble.problem.t_end))
-    runs = _run(ensemble, coarse, flag, tell), _run(ensemble, replace(fine, is_nudged=True), flag, lambda _done: None)
-    return _judged(ensemble, *runs, MARGIN * refinement.factor_of_answer(coarse, fine), tolerance)
+    """All motions by a local tolerance, at samples that are spread evenly, with what their neighbours tell.
+
+    Those with very many steps are compared with finer runs.
+    """
+    problem, n = ensemble.problem, ensemble.problem.degrees
+    times = np.linspace(0.0, problem.t_end, problem.samples)
+    runs = in_lanes(ensemble, times, Steps(LARGEST * problem.t_end, local), flag, tell, near=NEAR)
+    errors = MARGIN * runs.errors[:, :, :n]
+    many = np.flatnonzero(runs.steps > MANY)
+    if len(many):
+        errors[many] = _by_finer_runs(ensemble.chosen(many), runs, many, local, flag)
+    return _judged(ensemble, runs, errors, tolerance)
 
 
-def _run(ensemble: Ensemble, steps: Steps, flag: Flag, tell: Callable[[int], None]) -> Members:
-    """All motions, at samples that are spread evenly."""
-    times = np.linspace(0.0, ensemble.problem.t_end, ensemble.problem.samples)
-    return in_lanes(ensemble, times, steps, flag, tell)
+def _by_finer_runs(ensemble: Ensemble, runs: Members, which: NDArray[np.int64], local: float, flag: Flag) -> Floats:
+    """The errors of some runs by others that are finer and a little away, shape (motions, samples, n).
+
+    What but one of both came to is not known, and taken from `runs`.
+    """
+    t_end, n = ensemble.problem.t_end, ensemble.problem.degrees
+    refinement = BySeries(t_end, SCHEME, AHEAD, BELOW)
+    coarse, fine = refinement.pair(local, Pieces.whole(t_end))
+    steps = replace(fine, size=LARGEST * t_end / APART, is_nudged=True)
+    finer = in_lanes(ensemble, runs.times, steps, flag)
+    runs.outcomes[which] = np.where(runs.outcomes[which] != FINE, runs.outcomes[which], finer.outcomes)
+    runs.filled[which] = np.minimum(runs.filled[which], finer.filled)
+    runs.samples[which] = np.where(np.isfinite(finer.samples).all(axis=2, keepdims=True), runs.samples[which], np.nan)
+    factor = OF_PAIRS * refinement.factor_of_answer(coarse, fine)
+    with np.errstate(invalid="ignore", over="ignore"):
+        apart = factor * np.abs(runs.samples[which][:, :, :n] - finer.samples[:, :, :n])
+    return np.asarray(np.maximum.accumulate(apart, axis=1))
 
 
 def in_lanes(
-    ensemble: Ensemble, times: Floats, steps: Steps, flag: Flag, tell: Callable[[int], None] = lambda _done: None
+    ensemble: Ensemble,
+    times: Floats,
+    steps: Steps,
+    flag: Flag,
+    tell: Callable[[int], None] = lambda _done: None,
+    *,
+    near: int = 0,
 ) -> Members:
     """All motions from times[0] on, with samples at `times`, shape (samples,), ascending, each run once.
 
-    They go side by side in lanes, blocks of them in as many threads as there are processors.
+    They go side by side in lanes, blocks of them in as many threads as there are processors. Errors are found where an
+    order of neighbours is given, `near` (`series.neighbour`).
     """
-    problem, count, recurrences = ensemble.problem, len(ensemble), ensemble.problem.model.recurrences
+    problem, count, order = ensemble.problem, len(ensemble), steps.order or SCHEME.order_for(steps.tolerance)
     jet = jet_of_model(problem.model, is_long=True, lanes=lanes_of_host())
-    states = np.hstack([ensemble.states, np.zeros((count, jet.shape.width - 2 * problem.degrees))])
-    constants = np.ascontiguousarray(recurrences.constants(ensemble.parameters.T).T).reshape(count, -1)
-    if steps.is_nudged:
-        states, constants = nudged(states), recurrences.nudged(constants)
-    order = steps.order or SCHEME.order_for(steps.tolerance)
-    members = Members(
-        np.ascontiguousarray(states),
-        constants,
-        np.ascontiguousarray(times),
-        np.full((count, len(times), jet.shape.width), np.nan),
-        *(np.zeros(count, dtype=np.int64) for _ in range(3)),
-    )
-    conditions, code = len(recurrences.conditions), jet.code.addresses
-    sizes = conditions, jet.shape.components, constants.shape[1], jet.work, jet.shape.lanes
-    addresses = code["jet"], code["advance"], code["measure"]
+    members, code = _begun(ensemble, times, jet.shape.width, near, is_nudged=steps.is_nudged), jet.code.addresses
+    conditions, constants = len(problem.model.recurrences.conditions), members.constants.shape[1]
+    sizes = conditions, jet.shape.components, constants, jet.work, jet.shape.lanes
+    addresses = Addresses(**{name: code[name] for name in Addresses._fields})
 
     def block(start: int) -> int:
-        lanes = make_lanes(addresses, order, problem.degrees, jet.shape.width, sizes)
+        lanes = make_lanes(addresses, (order, near), problem.degrees, jet.shape.width, sizes)
         part = slice(start, start + BLOCK)
         some = members._replace(  # views: what is written stays
             **{name: array[part] for name, array in members._asdict().items() if name != "times"}
@@ -192,35 +220,51 @@ def in_lanes(
     return members
 
 
-def _judged(ensemble: Ensemble, coarse: Members, fine: Members, factor: float, tolerance: float) -> EnsembleMotion:
-    """The coarser runs with their estimates and outcomes."""
-    n, problem, end = ensemble.problem.degrees, ensemble.problem, 2 * ensemble.problem.degrees
-    is_known = np.isfinite(fine.samples[:, :, :end]).all(axis=2, keepdims=True)  # what but one run came to is not
-    states = np.where(is_known, coarse.samples[:, :, :end], np.nan)
-    values, codes = states[:, :, :n], np.where(coarse.outcomes != 0, coarse.outcomes, fine.outcomes)
+def _begun(ensemble: Ensemble, times: Floats, width: int, near: int, *, is_nudged: bool) -> Members:
+    """All motions at their beginnings, with room for states of so many numbers at `times`, shape (samples,)."""
+    count, recurrences = len(ensemble), ensemble.problem.model.recurrences
+    states = np.hstack([ensemble.states, np.zeros((count, width - ensemble.states.shape[1]))])
+    constants = np.ascontiguousarray(recurrences.constants(ensemble.parameters.T).T).reshape(count, -1)
+    changes = np.hstack([nudged(ensemble.states) - ensemble.states, recurrences.nudged(constants) - constants])
+    if is_nudged:
+        states, constants = nudged(states), recurrences.nudged(constants)
+    return Members(
+        np.ascontiguousarray(states),
+        constants,
+        NUDGES * changes if near else changes[:, :0],
+        np.ascontiguousarray(times),
+        np.full((count, len(times), width), np.nan),
+        np.full((count, len(times), ensemble.states.shape[1] if near else 0), np.nan),
+        *(np.zeros(count, dtype=np.int64) for _ in range(3)),
+    )
+
+
+def _judged(ensemble: Ensemble, runs: Members, told: Floats, tolerance: float) -> EnsembleMotion:
+    """The runs with their outcomes; `told`, shape (motions, samples, n), are errors but for rounding at the end."""
+    n, problem, end, codes = ensemble.problem.degrees, ensemble.problem, 2 * ensemble.problem.degrees, runs.outcomes
+    values, rates = runs.samples[:, :, :n], runs.samples[:, :, n:end]
     sizes = np.abs(values)
     with np.errstate(invalid="ignore", over="ignore"):
-        apart = np.abs(values - fine.samples[:, :, :n])
-        errors = np.maximum.accumulate(factor * apart + ROUNDING * sizes, axis=1)  # NaN from the end on
-        known = np.nan_to_num(errors, nan=0.0)
+        errors = told + ROUNDING * np.maximum.accumulate(sizes, axis=1)
+        known = np.nan_to_num(errors, nan=0.0)  # NaN from the end on
         worst = (known / np.maximum(1.0, np.nan_to_num(sizes))).max(axis=(1, 2))
         largest = np.nan_to_num(sizes).max(axis=1, keepdims=True)
         angular = np.array(problem.angular or (False,) * n)
         scale = np.where(angular, np.minimum(largest, 1.0), largest)
         lost = ((known >= LOST * scale) & (scale > 0.0)).any(axis=2)
     worst = np.where(codes == FINE, worst, np.nan)
-    horizons = np.where(lost.any(axis=1), coarse.times[lost.argmax(axis=1)], np.inf)
+    horizons = np.where(lost.any(axis=1), runs.times[lost.argmax(axis=1)], np.inf)
     outcomes = tuple(
         _outcome(problem, int(code), float(end), float(horizon), float(bad), tolerance)
         for code, end, horizon, bad in zip(
             codes,
-            coarse.times[np.maximum(np.minimum(fine.filled, coarse.filled) - 1, 0)],
+            runs.times[np.maximum(runs.filled - 1, 0)],
             horizons,
             worst,
             strict=True,
         )
     )
-    return EnsembleMotion(coarse.times, values, states[:, :, n:], errors, worst, coarse.steps, outcomes)
+    return EnsembleMotion(runs.times, values, rates, errors, worst, runs.steps, outcomes)
 
 
 def _outcome(problem: Problem, code: int, end: float, horizon: float, worst: float, tolerance: float) -> Outcome:

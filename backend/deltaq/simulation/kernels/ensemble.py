@@ -19,11 +19,21 @@ from .step import LARGEST_VALUE
 from .taylor import ALWAYS_UNNOTICED, LEAST_OF_SURPRISING, MOST_ORDERS, ROOM, SHORTER, UNNOTICED, sign_change
 
 OLD, NEW, OLD_REST, NEW_REST, SLOPES = 0, 1, 2, 3, 4  # rows of states
+# And of neighbours: how far each is from its motion at the beginning of a step, at its end, and there with what the
+# step did wrong; the largest error up to the beginning, and up to the end.
+APART, APART_AHEAD, APART_FOUND, ERRORS, ERRORS_FOUND = 5, 6, 7, 8, 9
+INSIDE_STATES = 10  # h ẋ within the step
+STATES = 11
 # Rows of what is told of steps: θ of the step to go, and of that gone in the new unit of time; that unit, tolerance.
 THETA, GONE, UNIT, TOLERANCE = 0, 1, 2, 3
 # And found: sizes of numbers, pivots (the least margin, and their sum), the defect, the step that is wanted.
 SIZES, MARGINS, PIVOTS, DEFECTS, WANTED = 4, 5, 6, 7, 8
-ROWS = 9
+# And of neighbours: the part of a defect that is an error, whether the step before is kept, and the enlargement; and
+# the defect within the step.
+SHARE, KEPT, SCALE, INSIDE = 9, 10, 11, 12
+ROWS = 13
+LEAST_JET = 2  # orders
+FIRST_SCALE = 2.0**20
 LINE = 64  # bytes of a line of the cache
 GOES_ON, RESTS, ENDED = 1, 2, 3
 SMALLER, MOST_UNITS = 2.0**-12, 8  # of the unit of time, where the first coefficients are out of range
@@ -35,34 +45,55 @@ class Members(NamedTuple):
 
     `states` has shape (motions, width), `constants` (motions, constants). `samples`, shape (motions, samples, width),
     receives the states at `times`, shape (samples,); `outcomes`, `steps` and `filled` (how many samples) have shape
-    (motions,).
+    (motions,). Where errors are wanted, `nudges` are changes of (q, q̇, constants) by rounding, shape (motions, 2n +
+    constants), and `errors`, shape (motions, samples, 2n), receives the largest error up to each sample; else both are
+    empty in their last axis.
     """
 
     states: Floats
     constants: Floats
+    nudges: Floats
     times: Floats
     samples: Floats
+    errors: Floats
     outcomes: Integers
     steps: Integers
     filled: Integers
 
 
-class Lanes(NamedTuple):
-    """The code, and what each lane is at; the last axis of all arrays is that of the lanes.
+class Addresses(NamedTuple):
+    """Code for coefficients (`jet`), for the step of all lanes (`advance`) and for what it did (`measure`).
 
-    There is code for coefficients (`jet`), for the step of all lanes (`advance`) and for what it did (`measure`).
-    `given` has shape (numbers, lanes), `coefficients` (2, MOST_ORDERS, components, lanes); `work` has shape (numbers,),
-    `program` (1,). `states`, shape (5, width, lanes), are `old` and `new`, their rests `old_rest` and `new_rest`, and
-    slopes; `told`, shape (ROWS, lanes), is what the code is told of steps, and tells. `before` and `now` are times,
-    `sizes` steps, `units` units of time, `least` the largest step that may be tried, and `sizes_before` the steps last
-    taken, shape (lanes,); `member` is the number of a motion, −1 for none, and `is_pending` whether a step waits for
-    its verdict (1), or, negative, how often the first series was out of range. `is_cut` says whether it
-    ends where one of so many `conditions` of the forces changes.
+    And, for their neighbours before a step, in it, and behind it, `begin`, `carry`, and `settle`; for what is within a
+    step, `look` and `compare` (`series.neighbour`).
     """
 
     jet: int
     advance: int
     measure: int
+    begin: int
+    carry: int
+    settle: int
+    look: int
+    compare: int
+
+
+class Lanes(NamedTuple):
+    """The code, and what each lane is at; the last axis of all arrays is that of the lanes.
+
+    `given` has shape (numbers, lanes), `coefficients` (2, MOST_ORDERS, components, lanes); `work` has shape (numbers,),
+    `program` (1,). `states`, shape (STATES, width, lanes), are `old` and `new`, their rests `old_rest` and `new_rest`,
+    slopes, and what is known of neighbours; `told`, shape (ROWS, lanes), is what the code is told of steps, and tells.
+    Behind these two in `rows`, shape (numbers, lanes), come `nudges` of constants, and what neighbours' jets are given,
+    `near_given`; these find `near`, shape (orders, components, lanes), by `near_program`, shape (1,), or by
+    `first_program` as few orders as a jet can. `before` and `now` are times, `sizes` steps, `units` units of time,
+    `least` the largest step that may be tried, and `sizes_before` the steps last taken, shape (lanes,); `member` is the
+    number of a motion, −1 for none, and `is_pending` whether a step waits for its verdict (1), or, negative, how often
+    the first series was out of range. `is_cut` says whether it ends where one of so many `conditions` of the forces
+    changes.
+    """
+
+    code: Addresses
     order: int
     degrees: int
     conditions: int
@@ -70,8 +101,14 @@ class Lanes(NamedTuple):
     coefficients: Floats
     work: Floats
     program: Integers
+    rows: Floats
     states: Floats
     told: Floats
+    nudges: Floats
+    near_given: Floats
+    near: Floats
+    near_program: Integers
+    first_program: Integers
     old: Floats
     new: Floats
     old_rest: Floats
@@ -88,22 +125,38 @@ class Lanes(NamedTuple):
 
 
 def make_lanes(
-    addresses: tuple[int, int, int], order: int, degrees: int, width: int, sizes: tuple[int, int, int, int, int]
+    code: Addresses,
+    orders: tuple[int, int],
+    degrees: int,
+    width: int,
+    sizes: tuple[int, int, int, int, int],
 ) -> Lanes:
-    """The arrays for code at addresses; `sizes` are conditions, components, constants, work space, lanes."""
+    """The arrays for code; `sizes` are conditions, components, constants, work space, lanes.
+
+    `orders` are those of the motions' series and of their neighbours'.
+    """
     conditions, components, constants, work, count = sizes
-    states, rows = aligned(5, width, count), aligned(4, count)
+    given, first = width + 2 + constants, STATES * width
+    block, rows = aligned(first + ROWS + constants + given, count), aligned(4, count)
+    states = block[:first].reshape(STATES, width, count)
+    behind = first + ROWS
     return Lanes(
-        *addresses,
-        order,
+        code,
+        orders[0],
         degrees,
         conditions,
-        aligned(width + 2 + constants, count),
+        aligned(given, count),
         aligned(2, MOST_ORDERS, components, count),
         aligned(work),
-        np.array([order], dtype=np.int64),
+        np.array(orders[:1], dtype=np.int64),
+        block,
         states,
-        aligned(ROWS, count),
+        block[first:behind],
+        block[behind : behind + constants],
+        block[behind + constants :],
+        aligned(orders[1] + 1, components, count),
+        np.array(orders[1:], dtype=np.int64),
+        np.array([LEAST_JET], dtype=np.int64),
         states[OLD],
         states[NEW],
         states[OLD_REST],
@@ -144,13 +197,30 @@ def take_up(lanes: Lanes, members: Members, lane: int, member: int, near: float)
     lanes.now[lane] = members.times[0]
     lanes.sizes[lane], lanes.least[lane] = near, np.inf
     members.filled[member] = 1
+    if members.errors.shape[2] > 0:
+        begin_beside(lanes, members, lane, member)
 
 
 @inline
-def expand_all(lanes: Lanes, row: int, tolerance: float) -> None:
+def begin_beside(lanes: Lanes, members: Members, lane: int, member: int) -> None:
+    """A lane's neighbour begins: some units in the last place away, which are enlarged."""
+    n = members.errors.shape[2]
+    for d in range(n):
+        apart = FIRST_SCALE * members.nudges[member, d]
+        for row in (APART, APART_AHEAD, APART_FOUND):
+            lanes.states[row, d, lane] = apart
+        lanes.states[ERRORS, d, lane] = lanes.states[ERRORS_FOUND, d, lane] = members.errors[member, 0, d] = 0.0
+    for c in range(lanes.nudges.shape[0]):
+        lanes.nudges[c, lane] = members.nudges[member, n + c]
+    lanes.told[SCALE, lane], lanes.told[KEPT, lane] = FIRST_SCALE, 1.0
+
+
+@inline
+def expand_all(lanes: Lanes, row: int, tolerance: float, judged: int) -> None:
     """The coefficients at the new states of all lanes, each in a power of two near its step as the unit of time.
 
-    What they tell of the step before, and the step that they want, stand in `told`.
+    What they tell of the step before, and the step that they want, stand in `told`; and errors, where so many numbers
+    of each motion are judged.
     """
     width = lanes.new.shape[0]
     for lane in range(lanes.now.size):
@@ -164,8 +234,13 @@ def expand_all(lanes: Lanes, row: int, tolerance: float) -> None:
     for d in range(width):
         for lane in range(lanes.now.size):
             lanes.given[1 + d, lane] = lanes.new[d, lane]
-    call_jet(lanes.jet, lanes.coefficients[row], lanes.given, lanes.work, lanes.program)
-    call_jet(lanes.measure, lanes.coefficients[row], lanes.states, lanes.told, lanes.program)
+    call_jet(lanes.code.jet, lanes.coefficients[row], lanes.given, lanes.work, lanes.program)
+    call_jet(lanes.code.measure, lanes.coefficients[row], lanes.states, lanes.told, lanes.program)
+    if judged > 0:
+        for lane in range(lanes.now.size):
+            is_step = lanes.is_pending[lane] > 0 and lanes.is_cut[lane] == 0
+            lanes.told[SHARE, lane] = 1.0 / (lanes.order + 1) if is_step else 0.0
+        call_jet(lanes.code.settle, lanes.coefficients[row], lanes.states, lanes.told, lanes.program)
 
 
 @inline
@@ -192,6 +267,8 @@ def sample_lane(lanes: Lanes, row: int, lane: int, members: Members) -> None:
             for k in range(lanes.order, 0, -1):
                 value = (value + lanes.coefficients[row, k, d, lane]) * theta
             members.samples[member, place, d] = lanes.old[d, lane] + (value + lanes.old_rest[d, lane])
+        for d in range(members.errors.shape[2]):
+            members.errors[member, place, d] = lanes.states[ERRORS_FOUND, d, lane]
         place += 1
     members.filled[member] = place
 
@@ -219,7 +296,7 @@ def judge_lane(lanes: Lanes, lane: int, members: Members, tolerance: float) -> i
     if lanes.is_pending[lane] <= 0:
         return 1 if outcome == FINE else begin_again(lanes, lane, outcome)
     h = lanes.sizes_before[lane]
-    defect = lanes.told[DEFECTS, lane] if outcome == FINE else np.inf
+    defect = max(lanes.told[DEFECTS, lane], lanes.told[INSIDE, lane]) if outcome == FINE else np.inf
     if outcome == FINE and lanes.is_cut[lane] == 1:  # behind the place the forces are others
         defect = 0.0
     if defect > max(UNNOTICED * tolerance, ALWAYS_UNNOTICED) and lanes.least[lane] > LEAST_OF_SURPRISING * h:
@@ -262,11 +339,18 @@ def plan_lane(lanes: Lanes, row: int, lane: int, largest: float, end: float) -> 
 
 
 @inline
-def advance_all(lanes: Lanes, row: int) -> None:
-    """Lanes whose step is planned go it; the others stay where they are for this round."""
+def advance_all(lanes: Lanes, row: int, judged: int) -> None:
+    """Lanes whose step is planned go it, with neighbours where they are judged; the others stay where they are."""
     for lane in range(lanes.now.size):
         lanes.told[THETA, lane] = lanes.sizes[lane] / lanes.units[lane] if lanes.is_pending[lane] > 0 else 0.0
-    call_jet(lanes.advance, lanes.coefficients[row], lanes.states, lanes.told, lanes.program)
+    call_jet(lanes.code.advance, lanes.coefficients[row], lanes.states, lanes.told, lanes.program)
+    if judged > 0:
+        call_jet(lanes.code.begin, lanes.coefficients[row], lanes.given, lanes.rows, lanes.program)
+        call_jet(lanes.code.jet, lanes.near, lanes.near_given, lanes.work, lanes.near_program)
+        call_jet(lanes.code.carry, lanes.near, lanes.coefficients[row], lanes.rows, lanes.near_program)
+        call_jet(lanes.code.look, lanes.coefficients[row], lanes.given, lanes.rows, lanes.program)
+        call_jet(lanes.code.jet, lanes.near, lanes.near_given, lanes.work, lanes.first_program)
+        call_jet(lanes.code.compare, lanes.near, lanes.given, lanes.rows, lanes.program)
 
 
 @inline
@@ -282,6 +366,7 @@ def verdict_on(
         return RESTS
     was_pending = lanes.is_pending[lane] == 1
     outcome = judge_lane(lanes, lane, members, tolerance)
+    lanes.told[KEPT, lane] = 1.0 if outcome == 1 else 0.0
     if outcome == 1 and was_pending:
         sample_lane(lanes, 1 - row, lane, members)
     if outcome == 1 and members.steps[member] >= limit:
@@ -303,6 +388,7 @@ def integrate_members(
     `cancelled`, shape (1,), ends them when it is not 0.
     """
     count, following, busy, row = members.states.shape[0], 0, 0, 0
+    judged = members.errors.shape[2]
     end = members.times[members.times.size - 1]
     for lane in range(lanes.now.size):
         take_up(lanes, members, lane, following if following < count else -1, largest)
@@ -311,7 +397,7 @@ def integrate_members(
         if lanes.member[lane] < 0:
             lanes.sizes[lane] = largest
     while busy > 0:
-        expand_all(lanes, row, tolerance)
+        expand_all(lanes, row, tolerance, judged)
         for lane in range(lanes.now.size):
             verdict = verdict_on(lanes, row, lane, members, tolerance, limit, cancelled)
             if verdict == GOES_ON:
@@ -322,5 +408,5 @@ def integrate_members(
                 take_up(lanes, members, lane, following if following < count else -1, largest)
                 busy -= 1 if following >= count else 0
                 following += 1
-        advance_all(lanes, row)
+        advance_all(lanes, row, judged)
         row = 1 - row

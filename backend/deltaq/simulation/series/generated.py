@@ -16,6 +16,7 @@ from ...model.recurrences import Recurrences, Series, Term
 from ..kernels.motion import SMALLEST_PIVOT
 from ..kernels.taylor import MOST_ORDERS
 from .code import THOROUGH, Code, MachineCode, compiled, host
+from .neighbour import begin, carry, compare, look, settle
 from .operations import COMPARISONS, Operands, first, kept, later
 from .shape import Shape
 from .stepping import advance, measure
@@ -167,6 +168,8 @@ def jet_of(recurrences: Recurrences, lanes: int = 1, effort: int = THOROUGH) -> 
     functions = {"jet": writer.code}
     if lanes > 1:
         functions |= {"advance": advance(shape), "measure": measure(shape, SMALLEST_PIVOT)}
+        functions |= {"begin": begin(shape), "carry": carry(shape), "settle": settle(shape)}
+        functions |= {"look": look(shape), "compare": compare(shape)}
     return Jet(compiled(functions, effort), shape, sums.size)
 
 

@@ -47,7 +47,7 @@ def advance(shape: Shape) -> Code:
     block = "entry"
     for start in range(0, shape.width, TOGETHER):
         some = range(start, min(start + TOGETHER, shape.width))
-        for d, value, slope in _summed(code, shape, some, theta, block):
+        for d, value, slope in summed(code, shape, some, theta, block):
             old, rest = code.load("%given", NEW * shape.width + d), code.load("%given", NEW_REST * shape.width + d)
             code.store(old, "%given", OLD * shape.width + d)
             code.store(rest, "%given", OLD_REST * shape.width + d)
@@ -62,7 +62,7 @@ def advance(shape: Shape) -> Code:
     return code
 
 
-def _summed(code: Code, shape: Shape, some: range, theta: str, block: str) -> list[tuple[int, str, str]]:
+def summed(code: Code, shape: Shape, some: range, theta: str, block: str) -> list[tuple[int, str, str]]:
     """Of some components Σ cₖ θ^(k−1) and its derivative by θ; ends in the block `summed` + the first of them."""
     name, kind, zero = some[0], code.kind, code.number(0.0)
     row = code.new(f"mul i64 %last, {shape.components}")
