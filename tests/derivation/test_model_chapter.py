@@ -6,11 +6,14 @@ import math
 
 import pytest
 import sympy as sp
+from scipy.optimize import brentq
 from tests.derivation.model_scenes import heavy_top, model_steps, particle, rotating_hoop, spherical_pendulum
 from tests.derivation.scenes import chain, spring_in_space
 
 from deltaq.derivation import linearization as small_motions
+from deltaq.derivation.formula import Named, Rounded
 from deltaq.derivation.system import System
+from deltaq.mechanics.document import read_scene
 from deltaq.mechanics.library import load_scene
 from deltaq.mechanics.scene import Scene
 from deltaq.narration.derive import derive_request
@@ -116,3 +119,33 @@ def test_the_answer() -> None:
     assert hanging["modes"][0]["shape"] == {"y": 0.0, "phi": 1.0}
     assert result["jacobi_energy"]["equals_energy"] is True
     assert result["routh"] is None
+
+
+@pytest.mark.parametrize("order", [("x", "phi"), ("phi", "x")])
+def test_positions_that_are_numbers_have_the_units_of_their_coordinates(order: tuple[str, str]) -> None:
+    """x = l, and φ = sin(1 − φ), which no formula solves (SciPy: Brent's method)."""
+    coordinates = {"x": {"name": "x", "unit": "m", "value": 0.5}, "phi": {"name": "phi", "unit": "rad", "value": 0.2}}
+    parameters = {"m": ("kg", 1.0), "k": ("N/m", 2.0), "l": ("m", 1.5), "c": ("J", 3.0)}
+    steps = model_steps(
+        read_scene(
+            {
+                "id": "units",
+                "dimension": 2,
+                "coordinates": [coordinates[name] for name in order],
+                "parameters": [{"name": n, "unit": unit, "value": value} for n, (unit, value) in parameters.items()],
+                "bodies": [
+                    {"name": "bob", "kind": "particle", "mass": "m", "position": ["x + l*cos(phi)", "l*sin(phi)"]}
+                ],
+                "loads": [{"kind": "potential", "energy": "k*(x - l)^2/2 + c*(phi^2/2 - cos(phi - 1))"}],
+            }
+        )
+    )
+    angle = brentq(lambda phi: phi - math.sin(1.0 - phi), 0.0, 1.0, xtol=1e-15)
+    told = {}
+    for relation in steps["equilibrium:1"].relations[:2]:
+        name, value = relation.members
+        assert isinstance(name, Named)
+        assert isinstance(value, Rounded)
+        told[name.quantity.of] = (float(value.value), value.unit)
+    assert told == {"x": (pytest.approx(1.5), "m"), "phi": (pytest.approx(angle, rel=1e-12), "rad")}
+    assert steps["equilibrium:1"].verified
