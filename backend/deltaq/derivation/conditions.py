@@ -14,7 +14,7 @@ from dataclasses import dataclass
 import sympy as sp
 
 from .conservation import is_passive
-from .dissipation import dissipative_loads, remaining_loads
+from .dissipation import remaining_loads
 from .equilibria import Equilibrium, free_coordinates
 from .factoring import factor_list
 from .linearization import Linearization
@@ -71,7 +71,7 @@ def _existence(system: System, equilibrium: Equilibrium) -> Iterator[Comparison]
 def _stability(system: System, linear: Linearization) -> list[Comparison] | None:
     """Of each leading minor that decides: its sign."""
     kept = _kept(system, linear)
-    passive = is_passive(system) or (bool(dissipative_loads(system)) and not remaining_loads(system))
+    passive = is_passive(system) or not remaining_loads(system)
     decides = linear.stability != "undecided" and linear.verdict.derivative <= 1 and not linear.verdict.kind
     if not passive or not decides or not 0 < len(kept) <= MOST:
         return None
