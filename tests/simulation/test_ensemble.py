@@ -131,6 +131,24 @@ def test_fast_motions_begin_with_short_steps(rate: float) -> None:
     np.testing.assert_array_equal(found.values[3:, :, 0], found.values[[0] * 9, :, 0])
 
 
+def test_what_no_number_of_steps_reaches_is_given_up_early_and_nothing_else() -> None:
+    """ω = 10⁸ for 20 s is out of reach; (x, u) = 0 beside it rests; x″ = −(W/(t + ε))² x slows down, and comes."""
+    fast = problem_of(oscillator("-1e16*m*x", x=1.0, u=0.0), 20.0, 3)
+    both = Ensemble(fast, np.array([[1.0, 0.0], [0.0, 0.0]]), np.repeat([fast.parameters], 2, axis=0))
+    found = run_ensemble(both, 1e-6)
+    assert [outcome.code for outcome in found.outcomes] == ["out_of_reach", "ok"]
+    assert found.steps[0] <= fast.step_limit / 16
+    rate, late = 3e4, 1e-3
+    slowing = problem_of(oscillator(f"-m*{rate}^2*x/(t + {late})^2", x=1.0, u=0.5 / late), 10.0, 11)
+    some = Ensemble(slowing, slowing.state[None, :2].copy(), np.array([slowing.parameters]))
+    found = run_ensemble(some, 1e-3)
+    assert found.outcomes[0].status == "ok"
+    assert found.steps[0] > slowing.step_limit / 16
+    s = (found.times + late) / late
+    true = np.sqrt(s) * np.cos(np.sqrt(rate**2 - 0.25) * np.log(s))
+    np.testing.assert_array_less(np.abs(found.values[0, :, 0] - true), found.errors[0, :, 0] + 1e-12)
+
+
 def test_forces_that_jump_are_run_one_by_one() -> None:
     problem = problem_of(oscillator("-m*sign(x)", x=0.5, u=0.0), 4.0, 5)
     found = run_ensemble(

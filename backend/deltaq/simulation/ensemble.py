@@ -19,15 +19,15 @@ from .audit import Audit
 from .driver import simulate
 from .integration import Flag
 from .kernels.ensemble import Addresses, Members, integrate_members, make_lanes
-from .kernels.motion import FINE
+from .kernels.motion import FINE, STEP_LIMIT
 from .library import get_method
 from .method import Series
-from .outcome import Number, Outcome, outcome_of
+from .outcome import OUT_OF_REACH, Number, Outcome, outcome_of
 from .pieces import Pieces
 from .problem import Floats, Problem
 from .refinement import APART, FINEST_OF_SERIES, BySeries
 from .rounding import short
-from .run import Steps
+from .run import LONGER, PART, REACH, Steps
 from .series.engine import jet_of_model, lanes_of_host
 
 BLOCK = 64  # motions between which it is looked for others that may go on
@@ -74,6 +74,10 @@ class Ensemble:
     def chosen(self, which: NDArray[np.int64]) -> Ensemble:
         """Some of the motions; `which` has shape (motions,)."""
         return replace(self, states=self.states[which], parameters=self.parameters[which])
+
+    def limited(self, steps: int) -> Ensemble:
+        """The same with so many steps at most."""
+        return replace(self, problem=replace(self.problem, step_limit=steps))
 
 
 @dataclass(frozen=True)
@@ -152,12 +156,30 @@ def _run(
     """
     problem, n = ensemble.problem, ensemble.problem.degrees
     times = np.linspace(0.0, problem.t_end, problem.samples)
-    runs = in_lanes(ensemble, times, Steps(LARGEST * problem.t_end, local), flag, tell, near=NEAR)
+    runs = _within_reach(ensemble, times, Steps(LARGEST * problem.t_end, local), flag, tell)
     errors = MARGIN * runs.errors[:, :, :n]
     many = np.flatnonzero(runs.steps > MANY)
     if len(many):
         errors[many] = _by_finer_runs(ensemble.chosen(many), runs, many, local, flag)
     return _judged(ensemble, runs, errors, tolerance)
+
+
+def _within_reach(ensemble: Ensemble, times: Floats, steps: Steps, flag: Flag, tell: Callable[[int], None]) -> Members:
+    """All motions; those that a part of the steps brings nowhere are given up as `run` does, OUT_OF_REACH."""
+    part = ensemble.problem.step_limit // PART
+    runs = in_lanes(ensemble.limited(part), times, steps, flag, tell, near=NEAR)
+    far = np.flatnonzero(runs.outcomes == STEP_LIMIT)
+    if not len(far):
+        return runs
+    half = in_lanes(ensemble.chosen(far).limited(part // 2), times[[0, -1]], steps, flag)
+    gone = runs.reached[far]
+    is_lost = (gone > 0.0) & (PART * gone < REACH * times[-1]) & (gone <= LONGER * half.reached)
+    runs.outcomes[far[is_lost]], left = OUT_OF_REACH, far[~is_lost]
+    if len(left):
+        again = in_lanes(ensemble.chosen(left), times, steps, flag, near=NEAR)
+        for name in ("samples", "errors", "outcomes", "steps", "filled", "reached"):
+            getattr(runs, name)[left] = getattr(again, name)
+    return runs
 
 
 def _by_finer_runs(ensemble: Ensemble, runs: Members, which: NDArray[np.int64], local: float, flag: Flag) -> Floats:
@@ -169,7 +191,8 @@ def _by_finer_runs(ensemble: Ensemble, runs: Members, which: NDArray[np.int64], 
     refinement = BySeries(t_end, SCHEME, AHEAD, BELOW)
     coarse, fine = refinement.pair(local, Pieces.whole(t_end))
     steps = replace(fine, size=LARGEST * t_end / APART, is_nudged=True)
-    finer = in_lanes(ensemble, runs.times, steps, flag)
+    most = min(2 * int(runs.steps[which].max()), ensemble.problem.step_limit)  # no more where the others were given up
+    finer = in_lanes(ensemble.limited(most), runs.times, steps, flag)
     runs.outcomes[which] = np.where(runs.outcomes[which] != FINE, runs.outcomes[which], finer.outcomes)
     runs.filled[which] = np.minimum(runs.filled[which], finer.filled)
     runs.samples[which] = np.where(np.isfinite(finer.samples).all(axis=2, keepdims=True), runs.samples[which], np.nan)
@@ -235,7 +258,10 @@ def _begun(ensemble: Ensemble, times: Floats, width: int, near: int, *, is_nudge
         np.ascontiguousarray(times),
         np.full((count, len(times), width), np.nan),
         np.full((count, len(times), ensemble.states.shape[1] if near else 0), np.nan),
-        *(np.zeros(count, dtype=np.int64) for _ in range(3)),
+        np.zeros(count, dtype=np.int64),
+        np.zeros(count, dtype=np.int64),
+        np.zeros(count, dtype=np.int64),
+        np.zeros(count),
     )
 
 

@@ -44,10 +44,10 @@ class Members(NamedTuple):
     """All motions: where they begin, their constants, and what becomes of them.
 
     `states` has shape (motions, width), `constants` (motions, constants). `samples`, shape (motions, samples, width),
-    receives the states at `times`, shape (samples,); `outcomes`, `steps` and `filled` (how many samples) have shape
-    (motions,). Where errors are wanted, `nudges` are changes of (q, q̇, constants) by rounding, shape (motions, 2n +
-    constants), and `errors`, shape (motions, samples, 2n), receives the largest error up to each sample; else both are
-    empty in their last axis.
+    receives the states at `times`, shape (samples,); `outcomes`, `steps`, `filled` (how many samples) and the times
+    `reached` have shape (motions,). Where errors are wanted, `nudges` are changes of (q, q̇, constants) by rounding,
+    shape (motions, 2n + constants), and `errors`, shape (motions, samples, 2n), receives the largest error up to each
+    sample; else both are empty in their last axis.
     """
 
     states: Floats
@@ -59,6 +59,7 @@ class Members(NamedTuple):
     outcomes: Integers
     steps: Integers
     filled: Integers
+    reached: Floats
 
 
 class Addresses(NamedTuple):
@@ -375,6 +376,7 @@ def verdict_on(
         outcome = -CANCELLED
     if outcome < 0 or (outcome == 1 and lanes.now[lane] >= members.times[members.times.size - 1]):
         members.outcomes[member] = -outcome if outcome < 0 else FINE
+        members.reached[member] = lanes.now[lane]
         return ENDED
     return GOES_ON if outcome == 1 else RESTS
 
