@@ -9,6 +9,7 @@ from dataclasses import fields, is_dataclass, replace
 import numpy as np
 import pytest
 import sympy as sp
+from tests.derivation.model_scenes import particle
 from tests.derivation.textbook_integrals import SYSTEMS, Published, mass, plane, potential, scene
 
 from deltaq.derivation import symmetry
@@ -269,3 +270,12 @@ def test_the_kernel_of_linear_equations() -> None:
 def test_long_expressions_are_left(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(symmetry, "MOST_OPERATIONS", 5)
     assert symmetries(System(SYSTEMS["Kepler, plane"].scene)) == ()
+
+
+@pytest.mark.parametrize(
+    "taken", [(), ("h",), ("epsilon",), ("h", "epsilon"), ("epsilon", "eta"), ("h", "epsilon", "eta")], ids=" ".join
+)
+def test_the_small_number_of_a_change_is_no_other_symbol(taken: tuple[str, ...]) -> None:
+    """Neither one of the scene nor the h by which derivatives along a direction are defined."""
+    system = System(particle(["x"], dict.fromkeys(taken, 1.0), ["x", "0"]))
+    assert len({*taken, "x", "m", "t", system.h.name, noether.epsilon(system).name}) == len(taken) + 5
