@@ -158,6 +158,8 @@ def test_one_term_more_is_false(formula: Formula, value: Formula) -> None:
         pytest.param(Integral(e(sp.sin(S)), OVER_ROD), id="wave along a body"),
         pytest.param(Integral(e(1 / S), OVER_ROD), id="reciprocal along a body"),
         pytest.param(Integral(e(sp.sqrt(1 + S**2)), OVER_ROD), id="root along a body"),
+        pytest.param(Integral(e(sp.sqrt(S)), OVER_ROD), id="root of the coordinate along a body"),
+        pytest.param(Integral(e(sp.sqrt(L)), (Bounds(L, ZERO, M),)), id="and where it is positive"),
         pytest.param(Ratio(e(X), e(0)), id="division by zero"),
         pytest.param(Rounded(sp.Rational(1, 2**201)), id="rounded"),
         pytest.param(Substituted(e(X), {X: sp.Rational(1, 3**200)}), id="rounded put in"),
