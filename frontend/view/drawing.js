@@ -120,6 +120,8 @@ export function createDrawing(frame) {
   let camera = FRONT;
   /** @type {ReturnType<typeof placed>["ground"] | undefined} */
   let ground;
+  /** What other layers draw over it. @type {NonNullable<Parameters<typeof placed>[3]> | undefined} */
+  let over;
 
   function measure() {
     const { clientWidth: width, clientHeight: height } = frame;
@@ -134,7 +136,7 @@ export function createDrawing(frame) {
   /** @param {number} t */
   function draw(t) {
     if (!stage || !shown) return;
-    const figure = placed(stage, figureOf(stage, held ?? snapshotAt(shown.trajectory, t)), t);
+    const figure = placed(stage, figureOf(stage, held ?? snapshotAt(shown.trajectory, t)), t, over);
     ground = figure.ground;
     sheet(figure);
   }
@@ -148,6 +150,10 @@ export function createDrawing(frame) {
     /** What is drawn: letters of other layers keep off it. */
     get ground() {
       return ground;
+    },
+    /** Its letters keep off what another layer draws over it, from the next time on that it is drawn. @param {Parameters<typeof placed>[3]} drawn */
+    keepOff(drawn) {
+      over = drawn;
     },
     get camera() {
       return camera;

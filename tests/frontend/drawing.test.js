@@ -5,7 +5,7 @@ import { figureOf, KINDS, withDrawing } from "../../frontend/model/drawing/figur
 import { arcFrom, coil, sliverFrom, wrapped } from "../../frontend/model/drawing/geometry.js";
 import { forceLatex } from "../../frontend/model/drawing/marks.js";
 import { axesOf } from "../../frontend/model/drawing/axes.js";
-import { letterSize } from "../../frontend/model/drawing/placing.js";
+import { letterSize, placed } from "../../frontend/model/drawing/placing.js";
 import { stageOf, viewOf } from "../../frontend/model/drawing/stage.js";
 import { markerOf } from "../../frontend/model/symbols.js";
 import { snapshotAt } from "../../frontend/model/trajectory.js";
@@ -41,6 +41,17 @@ for (const [acceleration, vertical, down] of /** @type {const} */ ([["g", "down"
     const bob = stageOf(given, trajectory, square(400)).project(/** @type {number[]} */ (trajectory.positions.bob[0]));
     assert.equal((label?.at[1] ?? NaN) > bob[1], down);
   });
+
+test("a letter makes room for an arrow of another layer as soon as there is one, and stays there", () => {
+  const letter = { key: "m", latex: "m", at: /** @type {[number, number]} */ ([200, 200]), others: [/** @type {[number, number]} */ ([200, 240])], className: "" };
+  const own = stageOf(scene, trajectory, square(400));
+  const where = (/** @type {Parameters<typeof placed>[3]} */ beside) => placed(own, { shapes: [], labels: [letter] }, 0.5, beside).labels[0].at;
+  const arrow = { boxes: [], strips: [/** @type {[[number, number], [number, number]]} */ ([[150, 200], [260, 200]])], letters: [], turn: 0.001 };
+  assert.deepEqual(where(undefined), [200, 200]);
+  const [first, second] = [where(arrow), where(arrow)];
+  assert.ok(Math.abs(first[1] - 200) > 0.4 * letterSize(own), "letters are as high as that above and below their middle");
+  assert.deepEqual(second, first);
+});
 
 test("a view is widened on the side where the motion leaves it, and not without end", () => {
   const far = (/** @type {number} */ x) => ({ ...trajectory, positions: { bob: [[x, 0]] } });

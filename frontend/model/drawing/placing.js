@@ -85,7 +85,7 @@ export function passes([[x, y], [x1, y1]], box) {
 }
 
 /** @param {Figure} figure @returns {Ground} */
-function groundOf({ shapes }) {
+export function groundOf({ shapes }) {
   return {
     boxes: shapes.flatMap(({ boxes }) => boxes ?? []),
     strips: shapes.flatMap(({ strips }) => strips ?? []),
@@ -152,13 +152,13 @@ function stays({ kept, width, height }, stage, ground, taken, at) {
 /**
  * The figure with its letters where they find room. Letters are given their places in their order.
  * @param {Stage} stage @param {Figure} figure @param {number} t
- * @param {Ground & {letters: Box[]}} [beside]  what is drawn already, to be kept off
+ * @param {Ground & {letters: Box[], turn?: number}} [beside]  what is drawn already, to be kept off; turn: what makes all letters look for a place anew when it changes
  * @returns {Figure & {ground: Ground & {letters: Box[]}}}
  */
 export function placed(stage, figure, t, beside = { boxes: [], strips: [], letters: [] }) {
   const own = groundOf(figure);
   const ground = { boxes: [...own.boxes, ...beside.boxes], strips: [...own.strips, ...beside.strips] };
-  const turn = Math.floor(t * LOOKS);
+  const turn = Math.floor(t * LOOKS) + (beside.turn ?? 0);
   const guests = figure.labels.map((label) => guestOf(stage, label, turn));
   const taken = [...beside.letters];
   const labels = guests.map((guest, i) => {
