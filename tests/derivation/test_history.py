@@ -8,7 +8,7 @@ import pytest
 import sympy as sp
 
 from deltaq.derivation import formula as f
-from deltaq.derivation.history import MOST, History, with_names
+from deltaq.derivation.history import MOST, History, summands, with_names
 from deltaq.derivation.normal_algebra import NormalAlgebra
 from deltaq.derivation.step import Line, Relation, Step
 
@@ -274,4 +274,35 @@ def _classes(formula: f.Formula) -> list[str]:
             return [*_classes(left), *_classes(right)]
         case f.Explicit(_, owners):
             return [name for _, parts in owners for _, (name,) in parts]
+        case f.Integral(of) | f.AtTime(of):
+            return _classes(of)
     return []
+
+
+T, OVER_TIME = sp.Symbol("t", real=True), (f.Bounds(sp.Symbol("t", real=True), sp.Integer(0), b),)
+
+
+@pytest.mark.parametrize(
+    "formula",
+    [
+        line(a, b, c),
+        f.Explicit(a + b),
+        column(a + b, c + x),
+        f.Integral(line(a * x, b), OVER_TIME),
+        f.AtTime(line(a * x, b), T),
+        f.Equation(f.AtTime(line(a, b), T), f.Integral(f.Explicit(c + x), OVER_TIME)),
+        f.Rate(f.Explicit(x)),
+    ],
+    ids=lambda one: type(one).__name__,
+)
+def test_each_term_of_a_line_takes_a_name_and_the_line_stays_what_it_was(formula: f.Formula) -> None:
+    names = [f"term-{number}" for number in range(9)]
+    left = iter(names)
+    named = with_names(formula, left)
+    used = len(names) - len(list(left))
+    assert used == len(list(summands(formula)))
+    assert type(named) is type(formula)
+    assert _classes(named) in (names[:used], [])
+    assert _classes(named) or isinstance(formula, f.Rate)
+    algebra = NormalAlgebra(("x", "y"))
+    assert algebra.products(named) == algebra.products(formula)
