@@ -64,7 +64,7 @@ def _existence(system: System, equilibrium: Equilibrium) -> Iterator[Comparison]
             upper, lower = sp.fraction(sp.together(wave.args[0]))
             yield Comparison(system.display(sp.Abs(upper)), system.display(sp.Abs(lower)))
         for root in sorted(value.atoms(sp.Pow), key=str):
-            if root.exp.is_Rational and not root.exp.is_Integer and root.exp.q % 2 == 0:
+            if root.exp.is_Rational and root.exp.q % 2 == 0:
                 yield from _signed(system, root.base) or ()
 
 
