@@ -286,6 +286,7 @@ T, OVER_TIME = sp.Symbol("t", real=True), (f.Bounds(sp.Symbol("t", real=True), s
     "formula",
     [
         line(a, b, c),
+        line(a, sp.Integer(0), c),
         f.Explicit(a + b),
         column(a + b, c + x),
         f.Integral(line(a * x, b), OVER_TIME),
