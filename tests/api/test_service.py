@@ -8,6 +8,7 @@ import shutil
 import subprocess
 import sys
 from pathlib import Path
+from typing import Any
 
 import httpx
 import pytest
@@ -16,8 +17,11 @@ from fastapi import FastAPI
 from deltaq import __version__
 from deltaq.api import service as service_module
 from deltaq.api.app import create_app
+from deltaq.api.flights import Update
 from deltaq.api.routes.derivations import derivation_id
 from deltaq.api.service import Service, source_digest
+from deltaq.api.workers.job import Job
+from deltaq.api.workers.queue import Place
 from deltaq.lab.library import experiment_ids
 from deltaq.settings import Settings
 from deltaq.simulation.library import method_ids
@@ -53,6 +57,23 @@ async def test_not_ready_without_a_worker() -> None:
         response = await client.get(f"{API}/ready")
     assert (response.status_code, response.headers["retry-after"]) == (503, "2")
     assert response.json()["type"] == "/problems/overloaded"
+
+
+async def test_no_place_in_the_queue_is_told_behind_a_part(app: FastAPI, monkeypatch: pytest.MonkeyPatch) -> None:
+    """The queue is looked at now and again: that a job has begun is known by its first part, too."""
+    service: Service = app.state.service
+
+    async def run(_job: Any, _document: Any, tell_part: Any, _account: Any, tell_place: Any, _key: str) -> bytes:
+        tell_place(Place(1, 2.0))
+        tell_part(b"{}")
+        tell_place(Place(0, 0.0))
+        return b"{}"
+
+    monkeypatch.setattr(service.laboratory, "run", run)
+    told: list[Update] = []
+    job = Job("json:loads", deadline=1.0)
+    await service.measurement("in the queue", job, {}, told.append, anew=True, kernels=())
+    assert [each.kind for each in told] == ["waiting", "part"]
 
 
 async def test_version(client: httpx.AsyncClient) -> None:

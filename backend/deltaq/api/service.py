@@ -13,6 +13,7 @@ from dataclasses import dataclass, field, replace
 from functools import partial
 from importlib import import_module
 from pathlib import Path
+from threading import Event
 from typing import Any
 
 from fastapi import Request
@@ -97,16 +98,18 @@ class Service:
         async def compute(publish: OnUpdate) -> bytes:
             if kernels is None or kernels:
                 await self.kernels.wait(*(kernels or ()))
-            account = ACCOUNT.get()
+            account, has_begun = ACCOUNT.get(), Event()
             account.admit()
-            measured = await self.laboratory.run(
-                job,
-                document,
-                lambda part: publish(Update("part", part)),
-                account.let_in(),
-                lambda place: publish(_waiting(place)),
-                key,
-            )
+
+            def tell_part(part: bytes) -> None:
+                has_begun.set()
+                publish(Update("part", part))
+
+            def tell_place(place: Place) -> None:
+                if not has_begun.is_set():  # a part says as much, and may come before the next look at the queue
+                    publish(_waiting(place))
+
+            measured = await self.laboratory.run(job, document, tell_part, account.let_in(), tell_place, key)
             return await asyncio.to_thread(pack, measured)
 
         ask = self.cache.renew if anew else self.cache.get
