@@ -2343,7 +2343,7 @@ export interface components {
         };
         /**
          * ContactEquilibrium
-         * @description A state of rest on closed contacts, which push.
+         * @description A state of rest on closed contacts, whose reactions balance the other forces.
          */
         ContactEquilibrium: {
             /**
@@ -2381,7 +2381,7 @@ export interface components {
         };
         /**
          * ContactReaction
-         * @description A closed contact, and the reaction with which it pushes: what ∂g/∂q is multiplied by.
+         * @description A closed contact and its reaction, the factor of ∂g/∂q: positive, as it can only act towards opening.
          */
         ContactReaction: {
             /**

@@ -152,6 +152,14 @@ def test_what_rests_on_contacts(scene: Scene, expected: list[Row]) -> None:
     assert search.complete
 
 
+def test_nothing_is_at_rest_where_forces_only_jump_over_balance() -> None:
+    """Under V = mg max(x, y) the force along the floor changes its sign at x = 0 and is zero nowhere."""
+    kinked = {"kind": "potential", "energy": "m*g*max(x, y)"}
+    search = contact_search(System(plane(gap("y - b*x^2"), loads=(kinked,))))
+    assert search is not None
+    assert (search.found, search.complete) == ((), False)
+
+
 @pytest.mark.one_in(4)
 @pytest.mark.parametrize("seed", range(12))
 def test_minima_on_uneven_floors_are_those_of_scipy(seed: int) -> None:

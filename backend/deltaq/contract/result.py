@@ -312,14 +312,14 @@ class Equilibrium(Answer):
 
 
 class ContactReaction(Answer):
-    """A closed contact, and the reaction with which it pushes: what ∂g/∂q is multiplied by."""
+    """A closed contact and its reaction, the factor of ∂g/∂q: positive, as it can only act towards opening."""
 
     contact: str = Field(examples=["impact"])
     reaction: EquilibriumValue
 
 
 class ContactEquilibrium(Answer):
-    """A state of rest on closed contacts, which push."""
+    """A state of rest on closed contacts, whose reactions balance the other forces."""
 
     values: dict[str, EquilibriumValue] = Field(description="a coordinate that is missing may have any value")
     contacts: tuple[ContactReaction, ...]

@@ -44,6 +44,7 @@ from .solving import Domain, Solution, Solver
 from .system import System
 
 BRANCHES = 96  # of the search: each rod may point two ways
+BALANCED = arb(2) ** -40  # of the largest force, and of 1: what is left of it
 SHARE = 4  # times the operations of a search without constraints: they have more unknowns
 
 
@@ -76,11 +77,12 @@ def within(system: System, budget: Budget) -> Search:
     placed = sorted(solved.found, key=lambda each: _place(system, each))
     known = [_recognized(system, laws, each) for each in placed]
     regular = tuple(each for each in known if each is not None and is_regular(system, each))
-    found = tuple(each for each in regular if is_within(system, numbers_at(system, each)))
-    complete = solved.complete and len(regular) == len(known)
+    balanced = tuple(each for each in regular if each.reactions)
+    found = tuple(each for each in balanced if is_within(system, numbers_at(system, each)))
+    complete = solved.complete and len(balanced) == len(known)
     ranges = {q: domain(system).ranges[system.q(q)] for q in system.free if system.q(q) in solved.ranged}
     reason = "budget" if budget.left <= 0 else "continuum" if len(regular) == len(known) else "singular"
-    beyond = len(regular) - len(found)
+    beyond = len(balanced) - len(found)
     return Search(found[:MOST], len(found), complete, ranges, "" if complete else reason, beyond)
 
 
@@ -146,7 +148,10 @@ def _place(system: System, solution: Solution) -> tuple[float, list[float]]:
 
 
 def _recognized(system: System, laws: _Laws, solution: Solution) -> Equilibrium | None:
-    """The solution with its multipliers in closed form, else as numbers; None where they are not unique."""
+    """The solution with its multipliers in closed form, else as numbers; None where they are not unique.
+
+    Without any where none balance the forces.
+    """
     free = tuple(q for q in system.free if system.q(q) in solution.free)
     if any(each in solution.free for each in system.multipliers):
         return None
@@ -172,34 +177,54 @@ def _with_reactions(
     values = {system.q(q): known[system.q(q)] for q in system.free if system.q(q) in known}
     equilibrium = Equilibrium(values, exact, free)
     reactions = {each: known[each] for each in system.multipliers if each in known}
-    found = reactions or (_balancing if exact else _balancing_numbers)(system, equilibrium)
-    return None if found is None else replace(equilibrium, reactions=found)
+    if not reactions:
+        found = balancing(system, smooth_matrix(system), equilibrium)
+        if found is None:
+            return None
+        if not are_balanced(system, smooth_matrix(system), equilibrium, found):
+            return equilibrium
+        reactions = dict(zip(system.multipliers, found, strict=True))
+    return replace(equilibrium, reactions=reactions)
 
 
-def _balancing(system: System, equilibrium: Equilibrium) -> dict[sp.Symbol, sp.Expr] | None:
-    """λ₀ = −(A Aᵀ)⁻¹ A f, which solves Aᵀλ = −f where that has a solution."""
-    there = dict(equilibrium.values)
-    rows = system.display(smooth_matrix(system).xreplace(there))
+def balancing(system: System, rows: sp.ImmutableMatrix, place: Equilibrium) -> list[sp.Expr] | None:
+    """λ₀ = −(A Aᵀ)⁻¹ A f, which solves Aᵀλ = −f where that has a solution; None where the rows A are dependent.
+
+    In the parameters where the place is exact, else at the scene's values.
+    """
+    return (_in_parameters if place.exact else _in_numbers)(system, rows, place)
+
+
+def are_balanced(system: System, rows: sp.ImmutableMatrix, place: Equilibrium, reactions: list[sp.Expr]) -> bool:
+    """Whether f + Aᵀλ is zero at the scene's values: where a force jumps over balance, nothing makes it so."""
+    with ctx.workprec(BITS):
+        point = numbers_at(system, place)
+        force, turned = matrix_at(forces_at_rest(system), point), matrix_at(rows, point).transpose()
+        left = force + turned * arb_mat(len(reactions), 1, [number(each, point) for each in reactions])
+        largest = max((abs(each) for each in force.entries()), default=arb(0))
+        return all(bool(abs(each) <= BALANCED * (1 + largest)) for each in left.entries())
+
+
+def _in_parameters(system: System, rows: sp.ImmutableMatrix, place: Equilibrium) -> list[sp.Expr] | None:
+    there = dict(place.values)
+    known = system.display(rows.xreplace(there))
     force = system.display(forces_at_rest(system).xreplace(there))
-    square = system.display(rows * rows.T)
+    square = system.display(known * known.T)
     determinant = system.display(square.det(method="berkowitz"))
     if determinant == 0 or system.is_zero(determinant):
         return None
-    found = -(square.adjugate() * (rows * force))
-    return {each: system.display(x / determinant) for each, x in zip(system.multipliers, found, strict=True)}
+    return [system.display(-each / determinant) for each in square.adjugate() * (known * force)]
 
 
-def _balancing_numbers(system: System, equilibrium: Equilibrium) -> dict[sp.Symbol, sp.Expr] | None:
-    """The same at the scene's values."""
+def _in_numbers(system: System, rows: sp.ImmutableMatrix, place: Equilibrium) -> list[sp.Expr] | None:
     with ctx.workprec(BITS):
-        point = numbers_at(system, equilibrium)
-        rows = matrix_at(smooth_matrix(system), point)
-        force = matrix_at(forces_at_rest(system), point)
+        point = numbers_at(system, place)
+        known, force = matrix_at(rows, point), matrix_at(forces_at_rest(system), point)
         try:
-            found = (rows * rows.transpose()).solve(-(rows * force))
+            found = (known * known.transpose()).solve(-(known * force))
         except ZeroDivisionError:
             return None
-        return {each: rational(x) for each, x in zip(system.multipliers, found.entries(), strict=True)}
+        return [rational(each) for each in found.entries()]
 
 
 def numbers_at(system: System, equilibrium: Equilibrium) -> dict[str, arb]:

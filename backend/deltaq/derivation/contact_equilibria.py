@@ -1,10 +1,10 @@
 """Equilibria on closed contacts: f(q₀, 0) + Aᵀλ₀ + Σ λ_N ∂g_N/∂q = 0 with gaps g_N(q₀) = 0 and reactions λ_N > 0.
 
-Closed contacts are constraints that push and do not pull. So every choice of contacts is closed in turn, as many as
-there are degrees of freedom at most: a reaction of more of them is one of some that are independent (Carathéodory).
-What is found counts if all reactions push and every other event's value is not negative. Where as many contacts are
-closed as there are degrees of freedom, nothing is left to move, and reactions that push hold it: with λ_N > 0 the
-potential grows as a contact opens, to first order, so that only motions along closed contacts decide the stability.
+Closed contacts are constraints whose reactions act in one direction only, towards opening: a floor pushes, a string
+pulls. So every choice of contacts is closed in turn, as many as there are degrees of freedom at most: a reaction of
+more of them is one of some that are independent (Carathéodory). What is found counts if all reactions are positive and
+every other event's value is not negative. With λ_N > 0 the potential grows as a contact opens, to first order, so that
+only motions along closed contacts decide the stability; as many contacts as degrees of freedom leave none.
 Dry friction makes families of such positions, which are not sought.
 Source: Fourier's principle of virtual work with inequalities, Lanczos, The Variational Principles of Mechanics, ch.
 III.6; Nocedal, Wright, Numerical Optimization, 2nd ed., §12.3.
@@ -17,7 +17,7 @@ from dataclasses import dataclass, field, replace
 from itertools import combinations, islice
 
 import sympy as sp
-from flint import arb, arb_mat, ctx
+from flint import arb, ctx
 
 from ..language.memory import cached_method
 from ..mechanics.closure import closed
@@ -26,6 +26,8 @@ from ..vocabulary import OptionalPart, Stability
 from .bound_equilibria import (
     BRANCHES,
     SHARE,
+    are_balanced,
+    balancing,
     is_sought,
     matrix_at,
     numbers_at,
@@ -38,12 +40,12 @@ from .closed_form import Sought, closed_form
 from .conservation import is_passive
 from .dissipation import is_dissipative
 from .enclosure import Budget
-from .equilibria import BITS, NOTHING, OPERATIONS, Equilibrium, domain, point_at
+from .equilibria import BITS, NOTHING, OPERATIONS, Equilibrium, domain, is_within, point_at
 from .impacts import bouncing, frictions, gap, moving_term
 from .linearization import damping_at_rest, on_constraints
-from .matrix_form import forces_at_rest, is_autonomous
+from .matrix_form import is_autonomous
 from .program import number
-from .refinement import rational, refined
+from .refinement import refined
 from .solving import Domain, Solution, Solver
 from .system import System
 
@@ -135,13 +137,13 @@ def _along(system: System, contacts: tuple[Event, ...], budget: Budget) -> Conta
 def _judged(
     system: System, bound: System, contacts: tuple[Event, ...], equilibrium: Equilibrium
 ) -> ContactEquilibrium | None:
-    """None where a contact would have to pull, or bears nothing: then the position is one of open contacts."""
+    """None where a reaction would have the wrong sign, or is zero: then the position is one of open contacts."""
     values = tuple(equilibrium.reactions[each] for each in bound.multipliers)
     own = dict(zip(system.multipliers, values, strict=False))
     reactions = values[len(own) :]
     with ctx.workprec(BITS):
         point = numbers_at(bound, equilibrium)
-        if not all(_pushes(value, point) for value in reactions):
+        if not all(_is_positive(value, point) for value in reactions):
             return None
         stability = on_constraints(bound, equilibrium).stability
         touched = any(_touches(system, event, point) for event in bouncing(system) if event not in contacts)
@@ -151,7 +153,7 @@ def _judged(
     return ContactEquilibrium(contacts, replace(equilibrium, reactions=own), reactions, stability)
 
 
-def _pushes(value: sp.Expr, point: Mapping[str, arb]) -> bool:
+def _is_positive(value: sp.Expr, point: Mapping[str, arb]) -> bool:
     return bool(number(value, dict(point)) > NOTHING)
 
 
@@ -206,44 +208,20 @@ def _placed(
 def _held(
     system: System, contacts: tuple[Event, ...], gaps: tuple[sp.Expr, ...], place: Equilibrium
 ) -> ContactEquilibrium | None:
-    """The position with what holds it; None where it is behind another contact, or one would have to pull."""
-    rows = smooth_matrix(system).col_join(
-        sp.Matrix([[system.derivative(each, system.q(q)) for q in system.free] for each in gaps])
-    )
+    """The position with what holds it; None where another is closed too far, or a reaction has the wrong sign."""
+    slopes = sp.Matrix([[system.derivative(each, system.q(q)) for q in system.free] for each in gaps])
+    rows = smooth_matrix(system).col_join(slopes)
+    values = balancing(system, rows, place)
+    if values is None or not are_balanced(system, rows, place, values):
+        return None
+    own, reactions = values[: len(system.conditions)], tuple(values[len(system.conditions) :])
     with ctx.workprec(BITS):
         point = point_at(system, place)
-        values = _solved(rows, forces_at_rest(system), point)
-        others = [event for event in system.scene.events if event not in contacts]
-        if values is None or any(_is_behind(system, event, point) for event in others):
+        if not is_within(system, point) or not all(_is_positive(each, point) for each in reactions):
             return None
-        own = len(system.conditions)
-        if not all(bool(value > NOTHING) for value in values[own:]):
-            return None
-        reactions = _in_parameters(system, rows, place) if place.exact else [rational(each) for each in values]
         stability: Stability = "stable" if _feeds_nothing(system, point) else "undecided"
-    of_constraints = dict(zip(system.multipliers, reactions, strict=False))
-    return ContactEquilibrium(contacts, replace(place, reactions=of_constraints), tuple(reactions[own:]), stability)
-
-
-def _solved(rows: sp.ImmutableMatrix, force: sp.ImmutableMatrix, point: Mapping[str, arb]) -> list[arb] | None:
-    """λ of Aᵀλ = −f in numbers; None where gradients are dependent."""
-    turned: arb_mat = matrix_at(sp.ImmutableMatrix(rows.T), point)
-    try:
-        return list(turned.solve(-matrix_at(force, point)).entries())
-    except ZeroDivisionError:
-        return None
-
-
-def _in_parameters(system: System, rows: sp.ImmutableMatrix, place: Equilibrium) -> list[sp.Expr]:
-    turned, force = (each.xreplace(dict(place.values)) for each in (rows.T, forces_at_rest(system)))
-    determinant = system.display(turned.det(method="berkowitz"))
-    return [system.display(-each / determinant) for each in turned.adjugate() * force]
-
-
-def _is_behind(system: System, event: Event, point: Mapping[str, arb]) -> bool:
-    value = system.guided(system.expression(event.value.tree))
-    at_rest = value.xreplace({system.rate(q): system.zero for q in system.free})
-    return not at_rest.has(system.t) and bool(number(at_rest, dict(point)) < -NOTHING)
+    held = replace(place, reactions=dict(zip(system.multipliers, own, strict=True)))
+    return ContactEquilibrium(contacts, held, reactions, stability)
 
 
 def _is_new(system: System, one: ContactEquilibrium, found: list[ContactEquilibrium]) -> bool:

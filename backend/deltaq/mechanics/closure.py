@@ -1,7 +1,6 @@
 """A scene while contacts stay closed: each gap is kept at zero, as a holonomic constraint is, and its event is none.
 
-The reactions of closed contacts are then multipliers like others, but for their sign: a contact pushes and does not
-pull.
+The reactions of closed contacts are then multipliers like others, but for their sign: they only act towards opening.
 Source: Pfeiffer, Glocker, Multibody Dynamics with Unilateral Contacts, ch. 5.
 """
 

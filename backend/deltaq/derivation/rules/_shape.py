@@ -5,7 +5,8 @@ from __future__ import annotations
 import sympy as sp
 
 from ..calculus import column
-from ..formula import Explicit, Formula, Inserted, MatrixTimes, Named, Plus, Quantity, Term, Times, Value
+from ..equilibria import Equilibrium
+from ..formula import Explicit, Formula, Inserted, MatrixTimes, Named, Plus, Quantity, Rounded, Term, Times, Value
 from ..linearization import Linearization, deviations
 from ..step import Relation
 from ..system import System
@@ -56,6 +57,27 @@ def at_rest(system: System, linear: Linearization) -> dict[sp.Symbol, sp.Expr]:
     """The equilibrium with all rates zero, and the multipliers that hold it."""
     rates = {system.rate(q): system.zero for q in system.free}
     return {**linear.equilibrium.values, **linear.equilibrium.reactions, **rates}
+
+
+def place(system: System, equilibrium: Equilibrium, coordinate: str) -> Relation:
+    """q = q₀, in closed form, or as a number with its unit."""
+    value = equilibrium.values[system.q(coordinate)]
+    name = Named(Quantity("coordinate", coordinate), value)
+    if equilibrium.exact:
+        return Relation((name, Explicit(value)))
+    unit = next(c.unit for c in system.scene.coordinates if c.name == coordinate)
+    return Relation((name, Rounded(sp.sympify(value), unit)), "≈")
+
+
+def multiplier(symbol: sp.Symbol, equilibrium: Equilibrium) -> Relation:
+    """λ = λ₀ of a constraint that holds an equilibrium."""
+    value = equilibrium.reactions[symbol]
+    return valued(Inserted(Explicit(symbol), {symbol: value}), value, equilibrium)
+
+
+def valued(name: Formula, value: sp.Expr, equilibrium: Equilibrium) -> Relation:
+    """What a name stands for in an equilibrium, in closed form or as a number."""
+    return Relation((name, Explicit(value))) if equilibrium.exact else Relation((name, Rounded(value)), "≈")
 
 
 def reactions(system: System) -> Formula:

@@ -1,4 +1,4 @@
-"""Rest on a closed contact: its reaction balances the other forces, and it pushes, f₀ + λ_N ∂g_N/∂q = 0 with λ_N > 0.
+"""Rest on a closed contact: its reaction balances the other forces, f₀ + λ_N ∂g_N/∂q = 0, towards opening, λ_N > 0.
 
 Virtual displacements that open the contact are allowed as well; along them the forces may do no positive work.
 Source: Lanczos, The Variational Principles of Mechanics, ch. III.6 (Fourier's inequality).
@@ -13,12 +13,12 @@ import sympy as sp
 from ...mechanics.event import Event
 from ..contact_equilibria import ContactEquilibrium
 from ..equilibria import Equilibrium
-from ..formula import AtEquilibrium, Explicit, Formula, Inserted, Named, Plus, Quantity, Rounded, Stack, Term, Times
+from ..formula import AtEquilibrium, Explicit, Formula, Inserted, Named, Plus, Quantity, Stack, Term, Times
 from ..impacts import bouncing, slopes
 from ..matrix_form import forces_at_rest
 from ..step import Relation, Step
 from ..system import System
-from ._shape import balanced, numbers, shaped, zero
+from ._shape import balanced, multiplier, numbers, place, shaped, valued, zero
 from .contact_gap import RULE as GAP
 from .contact_gap import named_gap, slope_of
 
@@ -26,17 +26,17 @@ RULE = "contact-equilibrium"
 
 
 def apply(system: System, found: ContactEquilibrium, number: int) -> Step:
-    """Where it is, that the contacts are closed there, the reactions that hold it, and that they push."""
-    place = found.equilibrium
-    there = {**place.values, **place.reactions, **{system.rate(q): system.zero for q in system.free}}
+    """Where it is, that the contacts are closed there, the reactions that hold it, and their sign."""
+    known = found.equilibrium
+    there = {**known.values, **known.reactions, **{system.rate(q): system.zero for q in system.free}}
     lines = (
-        *(_place(system, place, q) for q in system.free if system.q(q) in place.values),
-        *(Relation((_at(system, place, named_gap(system, each), there), zero(1))) for each in found.contacts),
-        *(_multiplier(symbol, value, place) for symbol, value in place.reactions.items()),
+        *(place(system, known, q) for q in system.free if system.q(q) in known.values),
+        *(Relation((_at(system, known, named_gap(system, each), there), zero(1))) for each in found.contacts),
+        *(multiplier(symbol, known) for symbol in known.reactions),
         *_reactions(system, found),
-        Relation((_at(system, place, _balance(system, found), there), zero(len(system.free)))),
+        Relation((_at(system, known, _balance(system, found), there), zero(len(system.free)))),
     )
-    about = {"outcome": _outcome(found), "number": str(number), "coordinate": ", ".join(place.free)}
+    about = {"outcome": _outcome(found), "number": str(number), "coordinate": ", ".join(known.free)}
     premises = tuple(f"{GAP}:{event.name}" for event in found.contacts)
     return Step(RULE, str(number), lines, system.constraint_sources, about, premises=premises)
 
@@ -46,33 +46,16 @@ def _outcome(found: ContactEquilibrium) -> str:
     return "stable-in-the-others" if is_family else found.stability
 
 
-def _at(system: System, place: Equilibrium, law: Formula, there: dict[sp.Symbol, sp.Expr]) -> Formula:
+def _at(system: System, known: Equilibrium, law: Formula, there: dict[sp.Symbol, sp.Expr]) -> Formula:
     at_rest = AtEquilibrium(law, there)
-    return at_rest if place.exact else Inserted(at_rest, numbers(system))
-
-
-def _place(system: System, place: Equilibrium, coordinate: str) -> Relation:
-    value = place.values[system.q(coordinate)]
-    name = Named(Quantity("coordinate", coordinate), value)
-    if place.exact:
-        return Relation((name, Explicit(value)))
-    unit = next(c.unit for c in system.scene.coordinates if c.name == coordinate)
-    return Relation((name, Rounded(sp.sympify(value), unit)), "≈")
-
-
-def _multiplier(symbol: sp.Symbol, value: sp.Expr, place: Equilibrium) -> Relation:
-    name = Inserted(Explicit(symbol), {symbol: value})
-    return Relation((name, Explicit(value))) if place.exact else Relation((name, Rounded(value)), "≈")
+    return at_rest if known.exact else Inserted(at_rest, numbers(system))
 
 
 def _reactions(system: System, found: ContactEquilibrium) -> Iterator[Relation]:
     """λ_N of each contact, and that it is positive at the scene's values."""
     for event, value in zip(found.contacts, found.reactions, strict=True):
         name = _reaction(system, event, value)
-        if found.equilibrium.exact:
-            yield Relation((name, Explicit(value)))
-        else:
-            yield Relation((name, Rounded(value)), "≈")
+        yield valued(name, value, found.equilibrium)
         yield Relation((Explicit(system.zero), Inserted(name, numbers(system))), "<")
 
 

@@ -8,16 +8,13 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-import sympy as sp
-
-from ...mechanics.conditions import Condition
 from ..conservation import potential_that_decides
-from ..formula import AtEquilibrium, Explicit, Formula, Inserted, Named, Quantity, Rounded
+from ..formula import AtEquilibrium, Formula, Inserted
 from ..linearization import Linearization
 from ..matrix_form import forces_at_rest
 from ..step import Relation, Step
 from ..system import System
-from ._shape import at_rest, balanced, numbers, shaped, zero
+from ._shape import at_rest, balanced, multiplier, numbers, place, shaped, zero
 
 RULE = "equilibrium"
 
@@ -28,14 +25,15 @@ def apply(system: System, linear: Linearization, number: int) -> Step:
     force = balanced(system, shaped("forcing", "vector", forces_at_rest(system)))
     laws = (force, *map(system.named_condition, system.conditions))
     proofs = (Relation((_there(system, linear, law), zero(rows))) for law, rows in _rows(system, laws))
-    places = tuple(_place(system, linear, q) for q in system.free if system.q(q) in linear.equilibrium.values)
+    known = linear.equilibrium
+    places = tuple(place(system, known, q) for q in system.free if system.q(q) in known.values)
     free = linear.equilibrium.free
     about = {"outcome": _outcome(linear, free), "number": str(number), "coordinate": ", ".join(free)}
     about |= potential_that_decides(system)
     if linear.verdict.derivative:
         about["derivative"] = str(linear.verdict.derivative)
         about["degree"] = str(linear.verdict.derivative + 1)
-    held = tuple(_multiplier(system, linear, each) for each in system.conditions)
+    held = tuple(multiplier(symbol, known) for symbol in system.multipliers)
     return Step(RULE, str(number), (*places, *held, *proofs), (), about)
 
 
@@ -47,24 +45,6 @@ def _rows(system: System, laws: tuple[Formula, ...]) -> Iterator[tuple[Formula, 
 def _there(system: System, linear: Linearization, law: Formula) -> Formula:
     there = AtEquilibrium(law, at_rest(system, linear))
     return there if linear.equilibrium.exact else Inserted(there, numbers(system))
-
-
-def _multiplier(system: System, linear: Linearization, condition: Condition) -> Relation:
-    symbol = system.multiplier(condition)
-    value = linear.equilibrium.reactions[symbol]
-    name = Inserted(Explicit(symbol), {symbol: value})
-    if linear.equilibrium.exact:
-        return Relation((name, Explicit(value)))
-    return Relation((name, Rounded(value)), "≈")
-
-
-def _place(system: System, linear: Linearization, coordinate: str) -> Relation:
-    value = linear.equilibrium.values[system.q(coordinate)]
-    name = Named(Quantity("coordinate", coordinate), value)
-    if linear.equilibrium.exact:
-        return Relation((name, Explicit(value)))
-    unit = next(c.unit for c in system.scene.coordinates if c.name == coordinate)
-    return Relation((name, Rounded(sp.sympify(value), unit)), "≈")
 
 
 def _outcome(linear: Linearization, free: tuple[str, ...]) -> str:
