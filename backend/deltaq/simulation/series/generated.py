@@ -35,7 +35,10 @@ class Sums(Protocol):
     def terms(self) -> Sequence[Term]:
         """All sums, each once."""
 
-    def keep(self, code: Code, series: Series, order: str, value: str) -> None:
+    def row(self, code: Code, order: str) -> str:
+        """The address behind which the coefficients of an order are kept, all at distances that are constants."""
+
+    def keep(self, code: Code, series: Series, row: str, value: str) -> None:
         """Keeps a coefficient wherever a sum will need it."""
 
     def write(self, code: Code, order: str, begin: str) -> dict[Term, str]:
@@ -60,18 +63,19 @@ class OfOperations:
     def _base(self, group: int, side: int) -> int:
         return (2 * group + side) * MOST_ORDERS * self.width
 
-    def keep(self, code: Code, series: Series, order: str, value: str) -> None:
-        row = code.new(f"mul i64 {order}, {self.width}")
+    def row(self, code: Code, order: str) -> str:
+        return code.new(f"getelementptr inbounds <{self.width} x double>, ptr %work, i64 {order}")
+
+    def keep(self, code: Code, series: Series, row: str, value: str) -> None:
         for number, term in enumerate(self.terms):
             for side in (0, 1):
                 if term[side] == series:
-                    place = self._base(number // self.width, side) + number % self.width
-                    code.store(value, "%work", code.new(f"add i64 {row}, {place}"))
+                    code.store(value, row, self._base(number // self.width, side) + number % self.width)
 
     def write(self, code: Code, order: str, begin: str) -> dict[Term, str]:
         vector = Code(self.width, code.lines, code.declared, prefix="w")
-        bases = [[code.at("%work", self._base(g, side)) for side in (0, 1)] for g in range(self.groups)]
-        found = _loop(vector, order, begin, bases)
+        places = [[(2 * g + side) * MOST_ORDERS for side in (0, 1)] for g in range(self.groups)]
+        found = _loop(vector, order, begin, places)
         return {
             term: code.new(f"extractelement {vector.kind} {found[number // self.width]}, i32 {number % self.width}")
             for number, term in enumerate(self.terms)
@@ -93,16 +97,19 @@ class OfMotions:
     def size(self) -> int:
         return len(self._series) * MOST_ORDERS * self.lanes
 
-    def keep(self, code: Code, series: Series, order: str, value: str) -> None:
+    def row(self, code: Code, order: str) -> str:
+        return code.at("%work", order)
+
+    def keep(self, code: Code, series: Series, row: str, value: str) -> None:
         if series in self._series:
-            code.store(value, code.at("%work", self._series.index(series) * MOST_ORDERS), order)
+            code.store(value, row, self._series.index(series) * MOST_ORDERS)
 
     def write(self, code: Code, order: str, begin: str) -> dict[Term, str]:
         found: dict[Term, str] = {}
-        places = {series: code.at("%work", number * MOST_ORDERS) for number, series in enumerate(self._series)}
+        places = {series: number * MOST_ORDERS for number, series in enumerate(self._series)}
         for number, some in enumerate(_grouped(self.terms, TOGETHER)):
-            bases = [[places[series] for series in term] for term in some]
-            found |= dict(zip(some, _loop(code, order, begin, bases, f"{number}"), strict=True))
+            pairs = [[places[series] for series in term] for term in some]
+            found |= dict(zip(some, _loop(code, order, begin, pairs, f"{number}"), strict=True))
             begin = f"summed{number}"
         return found
 
@@ -121,11 +128,11 @@ def _grouped(terms: Sequence[Term], most: int) -> list[list[Term]]:
     return groups
 
 
-def _loop(code: Code, order: str, begin: str, bases: Sequence[Sequence[str]], name: str = "") -> list[str]:
-    """Σ uⱼ vₖ₋ⱼ, 0 < j < k, for pairs of addresses of u₀ and v₀; ends in the block `summed` + name."""
+def _loop(code: Code, order: str, begin: str, pairs: Sequence[Sequence[int]], name: str = "") -> list[str]:
+    """Σ uⱼ vₖ₋ⱼ, 0 < j < k, for pairs of places of u₀ and v₀ in `work`; ends in the block `summed` + name."""
     zero, start = code.number(0.0), f"sum{name}"
-    sums = [f"%s{name}.{i}" for i in range(len(bases))]
-    nexts = [f"%n{name}.{i}" for i in range(len(bases))]
+    sums = [f"%s{name}.{i}" for i in range(len(pairs))]
+    nexts = [f"%n{name}.{i}" for i in range(len(pairs))]
     code.do(f"br label %{start}")
     code.label(start)
     code.do(f"%j{name} = phi i64 [ 1, %{begin} ], [ %jn{name}, %body{name} ]")
@@ -134,9 +141,9 @@ def _loop(code: Code, order: str, begin: str, bases: Sequence[Sequence[str]], na
     more = code.new(f"icmp slt i64 %j{name}, {order}")
     code.do(f"br i1 {more}, label %body{name}, label %summed{name}")
     code.label(f"body{name}")
-    back = code.new(f"sub i64 {order}, %j{name}")
-    for one, following, (u, v) in zip(sums, nexts, bases, strict=True):
-        found = code.multiply_add(code.load(u, f"%j{name}"), code.load(v, back), one)
+    ahead, back = code.at("%work", f"%j{name}"), code.at("%work", code.new(f"sub i64 {order}, %j{name}"))
+    for one, following, (u, v) in zip(sums, nexts, pairs, strict=True):
+        found = code.multiply_add(code.load(ahead, u), code.load(back, v), one)
         code.do(f"{following} = bitcast {code.kind} {found} to {code.kind}")
     code.do(f"%jn{name} = add i64 %j{name}, 1")
     code.do(f"br label %{start}")
@@ -257,8 +264,9 @@ class _Writer:
         order = code.spread(code.new("sitofp i64 %k to double"))
         inverse = code.divide(code.number(1.0), order)
         values = list(inputs)
+        row = self.sums.row(code, "%k")
         for place, value in enumerate(inputs):
-            self._keep(place, value, order)
+            self._keep(place, value, order, row)
         for place, operation in enumerate(r_.operations, len(inputs)):
             a, b, c = (values[p] if p < len(values) else "" for p in (operation.a, operation.b, operation.c))
             known = replace(
@@ -271,7 +279,7 @@ class _Writer:
             )
             x = replace(known, sums=tuple(sums[t] for t in operation.sums(place)), order=order, inverse=inverse)
             values.append(later(code, operation.code, x))
-            self._keep(place, values[-1], order)
+            self._keep(place, values[-1], order, row)
         self._end(state, values, unit)
 
     def _end(self, state: list[str], values: list[str], unit: str) -> None:
@@ -288,13 +296,13 @@ class _Writer:
         code.label("end")
         code.do("ret void")
 
-    def _keep(self, place: int, value: str, order: str) -> None:
+    def _keep(self, place: int, value: str, order: str, row: str) -> None:
         """Keeps a coefficient for later sums, and k times it."""
         needed = {series for term in self.sums.terms for series in term}
         if (place, False) in needed:
-            self.sums.keep(self.code, (place, False), "%k", value)
+            self.sums.keep(self.code, (place, False), row, value)
         if (place, True) in needed:
-            self.sums.keep(self.code, (place, True), "%k", self.code.multiply(order, value))
+            self.sums.keep(self.code, (place, True), row, self.code.multiply(order, value))
 
     def _integrated(self, state: list[str], values: list[str], unit: str, next_order: str) -> list[str]:
         """The next coefficients of the state: those of its derivative times H / (k + 1)."""
