@@ -28,7 +28,7 @@ from .problem import Floats, Problem
 from .refinement import APART, FINEST_OF_SERIES, BySeries
 from .rounding import short
 from .run import LONGER, PART, REACH, Steps
-from .series.engine import jet_of_model, lanes_of_host
+from .series.engine import code_of_neighbours, code_of_steps, jet_of_model, lanes_of_host
 
 BLOCK = 64  # motions between which it is looked for others that may go on
 ROUNDS = 3  # of a smaller local tolerance for those that missed theirs
@@ -218,13 +218,14 @@ def in_lanes(
     """
     problem, count, order = ensemble.problem, len(ensemble), steps.order or SCHEME.order_for(steps.tolerance)
     jet = jet_of_model(problem.model, is_long=True, lanes=lanes_of_host())
-    members, code = _begun(ensemble, times, jet.shape.width, near, is_nudged=steps.is_nudged), jet.code.addresses
-    conditions, constants = len(problem.model.recurrences.conditions), members.constants.shape[1]
-    sizes = conditions, jet.shape.components, constants, jet.work, jet.shape.lanes
-    addresses = Addresses(**{name: code[name] for name in Addresses._fields})
+    members, shape = _begun(ensemble, times, jet.shape.width, near, is_nudged=steps.is_nudged), jet.shape
+    sizes = shape.conditions, shape.components, shape.constants, jet.work, shape.lanes
+    codes = [jet.code, code_of_steps(shape), *([code_of_neighbours(shape)] if near else [])]  # kept while it runs
+    known = {name: address for code in codes for name, address in code.addresses.items()}
+    addresses = Addresses(**{name: known.get(name, 0) for name in Addresses._fields})
 
     def block(start: int) -> int:
-        lanes = make_lanes(addresses, (order, near), problem.degrees, jet.shape.width, sizes)
+        lanes = make_lanes(addresses, (order, near), problem.degrees, shape.width, sizes)
         part = slice(start, start + BLOCK)
         some = members._replace(  # views: what is written stays
             **{name: array[part] for name, array in members._asdict().items() if name != "times"}

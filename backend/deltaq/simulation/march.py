@@ -284,7 +284,7 @@ class March:
     def _outcome(self, found: Floats, states: Floats) -> Integers:
         """Whether series can be used, by lane."""
         shape, n = self.jet.shape, 2 * self.degrees
-        first = shape.width + len(shape.recurrences.conditions)
+        first = shape.first_pivot
         pivots, diagonals = found[0, first::2], found[0, first + 1 :: 2]
         total = (np.abs(found[1, :n]) + np.abs(found[self.order, :n]) + np.abs(states[:n])).sum(axis=0)
         if (total <= LARGEST_VALUE).all() and (pivots > SMALLEST_PIVOT * diagonals).all():
@@ -314,10 +314,10 @@ class March:
 
     def _cut(self, size: Floats) -> tuple[Floats, Truths]:
         """Steps up to just behind where the argument of a condition first changes its sign."""
-        if not self.jet.shape.recurrences.conditions:
+        if not self.jet.shape.conditions:
             return size, np.zeros(len(size), dtype=bool)
         found, lanes = size.copy(), self._lanes
-        for row in range(self.jet.shape.width, self.jet.shape.width + len(self.jet.shape.recurrences.conditions)):
+        for row in range(self.jet.shape.width, self.jet.shape.first_pivot):
             for lane in range(len(size)):
                 series, unit = lanes.coefficients[:, row, lane], lanes.units[lane]
                 at = _first_change(series[::-1], found[lane] / unit) * unit

@@ -8,10 +8,9 @@ long as they have a say. Where |x| is very large the C library is asked.
 
 from __future__ import annotations
 
-from functools import cache
 from math import factorial, pi
 
-from .code import Code, host
+from .code import LIBRARY, THOROUGH, Code, MachineCode, compiled, host, shared
 
 LARGEST = 2.0**30  # beyond, three parts of π/2 may be too few
 PARTS = (pi / 2.0, 6.123233995736766e-17, -1.4973849048591698e-33)  # of π/2, each what is left of it, rounded
@@ -26,10 +25,10 @@ def sine_and_cosine(code: Code, x: str) -> tuple[str, str]:
     if not host().has_fma:
         return code.function("sin", x), code.function("cos", x)
     if x not in code.circular:
-        declared, text = _definition(code.lanes)
-        code.declared |= declared
-        code.defined["circular"] = text
-        both = code.new(f"call {_pair(code)} @circular({code.kind} {x})")
+        name = f"circular.{code.lanes}"
+        shared(name, lambda: _made(name, code.lanes))
+        code.declared.add(f'declare {_pair(code)} @"{LIBRARY}{name}"({code.kind})')
+        both = code.new(f'call {_pair(code)} @"{LIBRARY}{name}"({code.kind} {x})')
         sine, cosine = (code.new(f"extractvalue {_pair(code)} {both}, {number}") for number in (0, 1))
         code.circular[x] = (sine, cosine)
     return code.circular[x]
@@ -39,9 +38,8 @@ def _pair(code: Code) -> str:
     return f"{{ {code.kind}, {code.kind} }}"
 
 
-@cache
-def _definition(lanes: int) -> tuple[frozenset[str], str]:
-    """What `circular` calls, and its own definition: a function of one argument that returns a pair."""
+def _made(name: str, lanes: int) -> MachineCode:
+    """The function of one argument that returns a pair: a fifth of the code of a small model, and the same for all."""
     code = Code(lanes)
     kind, pair = code.kind, _pair(code)
     code.label("entry")
@@ -58,7 +56,7 @@ def _definition(lanes: int) -> tuple[frozenset[str], str]:
     half = code.new(f"insertvalue {pair} poison, {kind} {sine}, 0")
     whole = code.new(f"insertvalue {pair} {half}, {kind} {cosine}, 1")
     code.do(f"ret {pair} {whole}")
-    return frozenset(code.declared), "\n".join([f"define internal {pair} @circular({kind} %x) #0 {{", *code.lines, "}"])
+    return compiled({name: code}, THOROUGH, pair, f"{kind} %x")
 
 
 def _any(code: Code, truths: str) -> str:

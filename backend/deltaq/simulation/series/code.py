@@ -9,17 +9,17 @@ from __future__ import annotations
 
 import ctypes
 import ctypes.util
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cache
-from threading import Lock
+from threading import RLock
 from typing import Any
 
 import llvmlite.binding as llvm
 
 LIBRARY = "deltaq.math."  # before the names of functions of the C library
 QUICK, THOROUGH = 0, 2  # LLVM's effort: code that is there twice as soon, or that runs in a fifth of the time
-_LOCK = Lock()
+_LOCK = RLock()
 
 
 @dataclass
@@ -29,7 +29,6 @@ class Code:
     lanes: int
     lines: list[str] = field(default_factory=list)
     declared: set[str] = field(default_factory=set)
-    defined: dict[str, str] = field(default_factory=dict)  # functions that this one calls
     circular: dict[str, tuple[str, str]] = field(default_factory=dict)  # sine and cosine of a number
     prefix: str = "v"  # of names, where two write the same function
     _count: int = 0
@@ -230,13 +229,11 @@ class MachineCode:
         return next(iter(self.addresses.values()))
 
 
-def compiled(functions: Mapping[str, Code], effort: int) -> MachineCode:
-    """Machine code of functions `void name(out, given, work, program)`."""
-    declared = set[str]().union(*(code.declared for code in functions.values()))
-    defined = {name: text for code in functions.values() for name, text in code.defined.items()}
-    lines = [*sorted(declared), *defined.values()]
+def compiled(functions: Mapping[str, Code], effort: int, returned: str = "void", given: str = ARGUMENTS) -> MachineCode:
+    """Machine code of functions `returned name(given)`, usually `void name(out, given, work, program)`."""
+    lines = sorted(set[str]().union(*(code.declared for code in functions.values())))
     for name, code in functions.items():
-        lines += [f"define void @{name}({ARGUMENTS}) #0 {{", *code.lines, "}"]
+        lines += [f"define {returned} @{name}({given}) #0 {{", *code.lines, "}"]
     text = "\n".join([*lines, 'attributes #0 = { nounwind "no-builtins" }', ""])
     with _LOCK:
         module = llvm.parse_assembly(text)
@@ -244,3 +241,17 @@ def compiled(functions: Mapping[str, Code], effort: int) -> MachineCode:
         engine = llvm.create_mcjit_compiler(module, host().machine(effort))
         engine.finalize_object()
     return MachineCode(engine, {name: engine.get_function_address(name) for name in functions})
+
+
+def shared(name: str, make: Callable[[], MachineCode]) -> None:
+    """Has all code call a function as LIBRARY + `name`, made when it is first wanted and kept from then on."""
+    with _LOCK:
+        if name not in _shared():
+            _shared()[name] = make()
+            llvm.add_symbol(LIBRARY + name, _shared()[name].address)
+
+
+@cache
+def _shared() -> dict[str, MachineCode]:
+    """Functions that are made once, by name."""
+    return {}

@@ -2,11 +2,18 @@
 
 from __future__ import annotations
 
+from functools import lru_cache
+
 from ...model.model import Model
-from .code import QUICK, THOROUGH, host
+from ..kernels.motion import SMALLEST_PIVOT
+from .code import QUICK, THOROUGH, MachineCode, compiled, host
 from .generated import Jet, jet_of
+from .neighbour import begin, carry, compare, look, settle
+from .shape import Shape
+from .stepping import advance, measure
 
 LANES = 8  # motions side by side where few are marched in rounds: the fewer rounds, the better
+SHAPES = 64  # of models whose code for steps is kept
 
 
 def lanes_of_host() -> int:
@@ -21,3 +28,16 @@ def jet_of_model(model: Model, *, is_long: bool, lanes: int = 1) -> Jet:
     """The code for a model's series; made once for each effort, and the thorough one serves all once it is there."""
     effort = THOROUGH if is_long or model.has(("jet", lanes, THOROUGH)) else QUICK
     return model.kept(("jet", lanes, effort), lambda: jet_of(model.recurrences, lanes, effort))
+
+
+@lru_cache(SHAPES)
+def code_of_steps(shape: Shape) -> MachineCode:
+    """How lanes go a step and tell what it did: of the shape alone, so that it is there for most new models."""
+    return compiled({"advance": advance(shape), "measure": measure(shape, SMALLEST_PIVOT)}, THOROUGH)
+
+
+@lru_cache(SHAPES)
+def code_of_neighbours(shape: Shape) -> MachineCode:
+    """What neighbours do (`neighbour`), of the shape alone: asked for only where errors are."""
+    functions = {"begin": begin(shape), "carry": carry(shape), "settle": settle(shape)}
+    return compiled(functions | {"look": look(shape), "compare": compare(shape)}, THOROUGH)

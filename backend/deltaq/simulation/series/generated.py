@@ -13,13 +13,10 @@ from typing import Protocol
 
 from ...model import recurrences as r
 from ...model.recurrences import Recurrences, Series, Term
-from ..kernels.motion import SMALLEST_PIVOT
 from ..kernels.taylor import MOST_ORDERS
 from .code import THOROUGH, Code, MachineCode, compiled, host
-from .neighbour import begin, carry, compare, look, settle
 from .operations import COMPARISONS, Operands, first, kept, later
 from .shape import Shape
-from .stepping import advance, measure
 
 TOGETHER = 5  # sums in one loop, whose parts have to stay in registers
 
@@ -166,31 +163,27 @@ class Jet:
 
 def jet_of(recurrences: Recurrences, lanes: int = 1, effort: int = THOROUGH) -> Jet:
     """The code of some recurrences, for one motion or for so many side by side; any effort gives the same digits."""
-    shape = Shape(recurrences, lanes)
     every = (t for i, each in enumerate(recurrences.operations) for t in each.sums(recurrences.inputs + i))
     terms = tuple(dict.fromkeys(every))
     sums: Sums = OfOperations(terms, 8 if host().width >= 8 else 4) if lanes == 1 else OfMotions(terms, lanes)
-    writer = _Writer(shape, sums, Code(lanes))
+    shape = Shape.of(recurrences, lanes)
+    writer = _Writer(recurrences, shape, sums, Code(lanes))
     writer.write()
-    functions = {"jet": writer.code}
-    if lanes > 1:
-        functions |= {"advance": advance(shape), "measure": measure(shape, SMALLEST_PIVOT)}
-        functions |= {"begin": begin(shape), "carry": carry(shape), "settle": settle(shape)}
-        functions |= {"look": look(shape), "compare": compare(shape)}
-    return Jet(compiled(functions, effort), shape, sums.size)
+    return Jet(compiled({"jet": writer.code}, effort), shape, sums.size)
 
 
 @dataclass(frozen=True)
 class _Writer:
     """Writes a jet: the first coefficients, then a loop over the orders."""
 
+    recurrences: Recurrences
     shape: Shape
     sums: Sums
     code: Code
 
     def write(self) -> None:
         """The whole function."""
-        r_, code, shape = self.shape.recurrences, self.code, self.shape
+        r_, code, shape = self.recurrences, self.code, self.shape
         code.label("entry")
         code.do("%last = load i64, ptr %program")
         unit, constants = code.load("%given", 0), self._constants()
@@ -200,7 +193,7 @@ class _Writer:
         begin, kept_, conditions = self._first(inputs, constants)
         self._out("0", state, begin)
         for number, place in enumerate(place for pair in r_.pivots for place in pair):
-            code.store(begin[place], "%out", shape.width + len(r_.conditions) + number)
+            code.store(begin[place], "%out", shape.first_pivot + number)
         following = self._integrated(state, begin, unit, code.number(1.0))
         self._out_state("1", following)
         code.do("br label %order")
@@ -213,13 +206,11 @@ class _Writer:
         self._order([*now[: 2 * r_.degrees], "%t"], now, begin, kept_, conditions, constants, unit)
 
     def _constants(self) -> list[str]:
-        return [
-            self.code.load("%given", self.shape.first_constant + i) for i in range(len(self.shape.recurrences.kept))
-        ]
+        return [self.code.load("%given", self.shape.first_constant + i) for i in range(self.shape.constants)]
 
     def _first(self, inputs: list[str], constants: list[str]) -> tuple[list[str], list[str], list[str]]:
         """The coefficients of order 0, what operations keep of them, and which conditions hold."""
-        r_, code = self.shape.recurrences, self.code
+        r_, code = self.recurrences, self.code
         values = list(inputs)
         truths: dict[int, str] = {}
         extras: list[str] = []
@@ -257,7 +248,7 @@ class _Writer:
         unit: str,
     ) -> None:
         """The block of order k: sums, operations, and the next coefficients of the state."""
-        r_, code = self.shape.recurrences, self.code
+        r_, code = self.recurrences, self.code
         sums = self.sums.write(code, "%k", "order")
         code.do("br label %chain")
         code.label("chain")
@@ -306,7 +297,7 @@ class _Writer:
 
     def _integrated(self, state: list[str], values: list[str], unit: str, next_order: str) -> list[str]:
         """The next coefficients of the state: those of its derivative times H / (k + 1)."""
-        r_, code = self.shape.recurrences, self.code
+        r_, code = self.recurrences, self.code
         share = code.divide(unit, next_order)
         rates = [*state[r_.degrees : 2 * r_.degrees], *(values[place] for place in r_.accelerations)]
         rates += [] if r_.power is None else [values[r_.power]]
@@ -323,7 +314,7 @@ class _Writer:
             self.code.store(value, base, d)
 
     def _out_conditions(self, order: str, values: list[str]) -> None:
-        r_ = self.shape.recurrences
+        r_ = self.recurrences
         if not r_.conditions:
             return
         base = self.code.at("%out", self.code.new(f"mul i64 {order}, {self.shape.components}"))

@@ -60,7 +60,7 @@ def settle(shape: Shape) -> Code:
     zero, endless = code.number(0.0), code.number(float("inf"))
     is_step = code.new(f"fcmp ogt {code.kind} {share}, {zero}")
     step, smaller = code.multiply(gone, code.load("%work", UNIT)), code.divide(code.number(1.0), scale)
-    n, errors, sizes = shape.recurrences.degrees, dict[int, str](), dict[int, str]()
+    n, errors, sizes = shape.degrees, dict[int, str](), dict[int, str]()
     for d in [*range(n, 2 * n), *range(n)]:
         rate = code.multiply(gone, code.load("%out", shape.components + d))
         defect = code.subtract(code.load("%given", SLOPES * shape.width + d), rate)
@@ -96,7 +96,7 @@ def begin(shape: Shape) -> Code:
     zero = code.number(0.0)
     goes, is_kept = (code.new(f"fcmp one {code.kind} {number}, {zero}") for number in (theta, kept))
     bases = []
-    for d in range(2 * shape.recurrences.degrees):
+    for d in range(2 * shape.degrees):
         for row, found in ((APART, APART_FOUND), (ERRORS, ERRORS_FOUND)):
             pair = (code.load("%work", place * shape.width + d) for place in (found, row))
             chosen = code.select(is_kept, *pair)
@@ -109,7 +109,7 @@ def begin(shape: Shape) -> Code:
     new_scale = code.select(goes, wanted, scale)
     factor = code.divide(new_scale, scale)
     code.store(new_scale, "%work", told + SCALE)
-    constants = len(shape.recurrences.kept)
+    constants = shape.constants
     near = told + ROWS + constants
     code.store(code.load("%work", told + UNIT), "%work", near)
     for d in range(shape.width):
@@ -137,7 +137,7 @@ def _rounding(code: Code, part: float, number: str, apart: str) -> str:
 
 def _too_far(code: Code, shape: Shape, bases: list[str], theta: str) -> str:
     """How many times too far away the neighbours are: the largest of all coordinates and velocities."""
-    n, found = shape.recurrences.degrees, code.number(0.0)
+    n, found = shape.degrees, code.number(0.0)
     for start in (0, n):
         moved = []
         for d in range(start, start + n):
@@ -162,7 +162,7 @@ def carry(shape: Shape) -> Code:
     code.label("entry")
     theta, zero = code.load("%work", STATES * shape.width + THETA), code.number(0.0)
     goes = code.new(f"fcmp one {code.kind} {theta}, {zero}")
-    count = 2 * shape.recurrences.degrees
+    count = 2 * shape.degrees
     code.do("%last = load i64, ptr %program")
     code.do("br label %sum")
     code.label("sum")
@@ -193,7 +193,7 @@ def look(shape: Shape) -> Code:
     code = Code(shape.lanes)
     code.label("entry")
     code.do("%last = load i64, ptr %program")
-    told, constants = STATES * shape.width, len(shape.recurrences.kept)
+    told, constants = STATES * shape.width, shape.constants
     theta, unit = (code.load("%work", told + row) for row in (THETA, UNIT))
     theta = code.multiply(code.number(PLACE), theta)
     near, block = told + ROWS + constants, "entry"
@@ -222,10 +222,10 @@ def compare(shape: Shape) -> Code:
     code = Code(shape.lanes)
     code.label("entry")
     told = STATES * shape.width
-    near, defect = told + ROWS + len(shape.recurrences.kept), code.number(0.0)
+    near, defect = told + ROWS + shape.constants, code.number(0.0)
     theta = code.multiply(code.number(PLACE), code.load("%work", told + THETA))
     endless = code.number(float("inf"))
-    for d in range(2 * shape.recurrences.degrees):
+    for d in range(2 * shape.degrees):
         rate = code.multiply(theta, code.load("%out", shape.components + d))
         apart = code.size(code.subtract(code.load("%work", INSIDE_STATES * shape.width + d), rate))
         size = code.larger(code.number(1.0), code.size(code.load("%work", near + 1 + d)))

@@ -9,29 +9,35 @@ from ...model.recurrences import Recurrences
 
 @dataclass(frozen=True)
 class Shape:
-    """What a jet reads and writes, in numbers of `lanes` doubles.
+    """What a jet reads and writes, in numbers of `lanes` doubles; models of one shape take their steps by one code.
 
     Given are the unit of time H, the state, t and the constants. A row of coefficients in that unit has the state, the
     arguments of conditions, and (in row 0 alone) the pivots with the diagonal entries that they are left of.
     """
 
-    recurrences: Recurrences
+    degrees: int
+    width: int  # of a state
+    conditions: int
+    pivots: int
+    constants: int
     lanes: int = 1
 
-    @property
-    def width(self) -> int:
-        """Of a state."""
-        return 2 * self.recurrences.degrees + (self.recurrences.power is not None)
+    @classmethod
+    def of(cls, recurrences: Recurrences, lanes: int = 1) -> Shape:
+        """That of some recurrences."""
+        width = 2 * recurrences.degrees + (recurrences.power is not None)
+        counts = (len(each) for each in (recurrences.conditions, recurrences.pivots, recurrences.kept))
+        return cls(recurrences.degrees, width, *counts, lanes)
 
     @property
     def components(self) -> int:
         """Of a row of coefficients."""
-        return self.width + len(self.recurrences.conditions) + 2 * len(self.recurrences.pivots)
+        return self.first_pivot + 2 * self.pivots
 
     @property
     def first_pivot(self) -> int:
         """Where the pivots begin in a row of coefficients."""
-        return self.width + len(self.recurrences.conditions)
+        return self.width + self.conditions
 
     @property
     def first_constant(self) -> int:

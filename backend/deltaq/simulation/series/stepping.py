@@ -101,7 +101,7 @@ def measure(shape: Shape, smallest_pivot: float) -> Code:
     last_row = code.at("%out", code.new(f"mul i64 {order}, {shape.components}"))
     row_before = code.at("%out", code.new(f"mul i64 {code.new(f'sub i64 {order}, 1')}, {shape.components}"))
     total = defect = last = before = zero
-    for d in range(2 * shape.recurrences.degrees):
+    for d in range(2 * shape.degrees):
         size = code.size(code.load("%given", NEW * shape.width + d))
         first, highest = code.load("%out", shape.components + d), code.size(code.load(last_row, d))
         scale = code.divide(one, code.larger(one, size))
