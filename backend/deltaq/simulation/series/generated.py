@@ -7,9 +7,10 @@ wherever they are needed. Where several motions run side by side, the lanes are 
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass, replace
-from typing import Protocol
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any, Protocol
 
 from ...model import recurrences as r
 from ...model.recurrences import Recurrences, Series, Term
@@ -29,14 +30,11 @@ class Sums(Protocol):
         """Doubles of work space."""
 
     @property
-    def terms(self) -> Sequence[Term]:
-        """All sums, each once."""
+    def places(self) -> Mapping[Series, Sequence[int]]:
+        """Where the coefficients of each series that a sum needs are kept, behind the address of their order."""
 
     def row(self, code: Code, order: str) -> str:
-        """The address behind which the coefficients of an order are kept, all at distances that are constants."""
-
-    def keep(self, code: Code, series: Series, row: str, value: str) -> None:
-        """Keeps a coefficient wherever a sum will need it."""
+        """The address of an order: all places of its coefficients are constants."""
 
     def write(self, code: Code, order: str, begin: str) -> dict[Term, str]:
         """The sums of an order; `begin` is the name of the block in which this is written."""
@@ -63,11 +61,14 @@ class OfOperations:
     def row(self, code: Code, order: str) -> str:
         return code.new(f"getelementptr inbounds <{self.width} x double>, ptr %work, i64 {order}")
 
-    def keep(self, code: Code, series: Series, row: str, value: str) -> None:
+    @cached_property
+    def places(self) -> Mapping[Series, Sequence[int]]:
+        found: dict[Series, list[int]] = {}
         for number, term in enumerate(self.terms):
-            for side in (0, 1):
-                if term[side] == series:
-                    code.store(value, row, self._base(number // self.width, side) + number % self.width)
+            for side, series in enumerate(term):
+                place = self._base(number // self.width, side) + number % self.width
+                found.setdefault(series, []).append(place)
+        return found
 
     def write(self, code: Code, order: str, begin: str) -> dict[Term, str]:
         vector = Code(self.width, code.lines, code.declared, prefix="w")
@@ -86,26 +87,22 @@ class OfMotions:
     terms: tuple[Term, ...]
     lanes: int
 
-    @property
-    def _series(self) -> list[Series]:
-        return list(dict.fromkeys(series for term in self.terms for series in term))
+    @cached_property
+    def places(self) -> Mapping[Series, Sequence[int]]:
+        every = dict.fromkeys(series for term in self.terms for series in term)
+        return {series: (number * MOST_ORDERS,) for number, series in enumerate(every)}
 
     @property
     def size(self) -> int:
-        return len(self._series) * MOST_ORDERS * self.lanes
+        return len(self.places) * MOST_ORDERS * self.lanes
 
     def row(self, code: Code, order: str) -> str:
         return code.at("%work", order)
 
-    def keep(self, code: Code, series: Series, row: str, value: str) -> None:
-        if series in self._series:
-            code.store(value, row, self._series.index(series) * MOST_ORDERS)
-
     def write(self, code: Code, order: str, begin: str) -> dict[Term, str]:
         found: dict[Term, str] = {}
-        places = {series: number * MOST_ORDERS for number, series in enumerate(self._series)}
         for number, some in enumerate(_grouped(self.terms, TOGETHER)):
-            pairs = [[places[series] for series in term] for term in some]
+            pairs = [[self.places[series][0] for series in term] for term in some]
             found |= dict(zip(some, _loop(code, order, begin, pairs, f"{number}"), strict=True))
             begin = f"summed{number}"
         return found
@@ -221,17 +218,18 @@ class _Writer:
                     condition = r_.conditions[operation.a]
                     truths[operation.a] = code.is_true(COMPARISONS[condition.kind], values[condition.argument])
                 truth = truths[operation.a]
-            a0, b0, c0 = (values[p] if p < len(values) else "" for p in (operation.a, operation.b, operation.c))
             name = r.FUNCTIONS[operation.c] if operation.code in r.WITH_FUNCTION else ""
-            x = Operands(a=truth, a0=a0, b0=b0, c0=c0, constant=self._constant(operation, constants))
+            x = self._operands(operation, values, a=truth, constant=self._constant(operation, constants))
             values.append(first(code, operation.code, x, name))
         for place, operation in enumerate(r_.operations, len(inputs)):
-            extras.append(kept(code, operation.code, self._of_first(operation, values, place)))
+            extras.append(kept(code, operation.code, self._operands(operation, values, y0=values[place])))
         return values, extras, [truths.get(i, "") for i in range(len(r_.conditions))]
 
-    def _of_first(self, operation: r.Operation, values: list[str], place: int) -> Operands:
+    @staticmethod
+    def _operands(operation: r.Operation, values: list[str], **more: Any) -> Operands:
+        """What is known of an operation: the first coefficients of its operands, if there are such, and more."""
         a0, b0, c0 = (values[p] if p < len(values) else "" for p in (operation.a, operation.b, operation.c))
-        return Operands(a0=a0, b0=b0, c0=c0, y0=values[place])
+        return Operands(a0=a0, b0=b0, c0=c0, **more)
 
     @staticmethod
     def _constant(operation: r.Operation, constants: list[str]) -> str:
@@ -260,15 +258,19 @@ class _Writer:
             self._keep(place, value, order, row)
         for place, operation in enumerate(r_.operations, len(inputs)):
             a, b, c = (values[p] if p < len(values) else "" for p in (operation.a, operation.b, operation.c))
-            known = replace(
-                self._of_first(operation, begin, place),
+            x = self._operands(
+                operation,
+                begin,
                 a=conditions[operation.a] if operation.code == r.CHOICE else a,
                 b=b,
                 c=c,
+                y0=begin[place],
                 extra=extras[place - len(inputs)],
                 constant=self._constant(operation, constants),
+                sums=tuple(sums[t] for t in operation.sums(place)),
+                order=order,
+                inverse=inverse,
             )
-            x = replace(known, sums=tuple(sums[t] for t in operation.sums(place)), order=order, inverse=inverse)
             values.append(later(code, operation.code, x))
             self._keep(place, values[-1], order, row)
         self._end(state, values, unit)
@@ -289,11 +291,13 @@ class _Writer:
 
     def _keep(self, place: int, value: str, order: str, row: str) -> None:
         """Keeps a coefficient for later sums, and k times it."""
-        needed = {series for term in self.sums.terms for series in term}
-        if (place, False) in needed:
-            self.sums.keep(self.code, (place, False), row, value)
-        if (place, True) in needed:
-            self.sums.keep(self.code, (place, True), row, self.code.multiply(order, value))
+        places = self.sums.places
+        for at in places.get((place, False), ()):
+            self.code.store(value, row, at)
+        if (place, True) in places:
+            times_order = self.code.multiply(order, value)
+            for at in places[place, True]:
+                self.code.store(times_order, row, at)
 
     def _integrated(self, state: list[str], values: list[str], unit: str, next_order: str) -> list[str]:
         """The next coefficients of the state: those of its derivative times H / (k + 1)."""

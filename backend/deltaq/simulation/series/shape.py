@@ -26,8 +26,8 @@ class Shape:
     def of(cls, recurrences: Recurrences, lanes: int = 1) -> Shape:
         """That of some recurrences."""
         width = 2 * recurrences.degrees + (recurrences.power is not None)
-        counts = (len(each) for each in (recurrences.conditions, recurrences.pivots, recurrences.kept))
-        return cls(recurrences.degrees, width, *counts, lanes)
+        conditions, pivots = len(recurrences.conditions), len(recurrences.pivots)
+        return cls(recurrences.degrees, width, conditions, pivots, len(recurrences.kept), lanes)
 
     @property
     def components(self) -> int:
