@@ -9,9 +9,10 @@ import numpy as np
 import pytest
 from scipy.integrate import quad
 from scipy.special import ellipj
-from tests.simulation.scenes import oscillator
+from tests.simulation.scenes import document, oscillator
 
 from deltaq.errors import Problem, RequestError
+from deltaq.mechanics.document import read_scene
 from deltaq.mechanics.library import load_scene
 from deltaq.mechanics.writing import write_scene
 from deltaq.simulation.driver import simulate
@@ -21,7 +22,11 @@ from deltaq.simulation.library import get_method
 from deltaq.simulation.problem import Problem as Motion
 from deltaq.simulation.run import Steps
 from deltaq.simulation.run import run as run_alone
+from deltaq.simulation.series.engine import code_of_neighbours, code_of_steps
 from deltaq.simulation.service import problem_of
+
+ONE = {"p": ("m", ["x", "0"])}
+PUSH = {"kind": "force", "name": "push", "at": "p"}
 
 
 def cloud(problem: Motion, count: int, seed: int = 3) -> Ensemble:
@@ -69,6 +74,31 @@ def test_a_hill_that_is_thinner_than_a_step_is_seen() -> None:
     found = run_ensemble(Ensemble(problem, states, np.repeat([problem.parameters], 41, axis=0)), 1e-8)
     delay = quad(lambda x: 1.0 / np.sqrt(1.0 - 0.25 * np.exp(-((x / width) ** 2))) - 1.0, -0.5, 0.5, points=[0.0])[0]
     np.testing.assert_allclose(found.values[:, -1, 0], starts + 10.0 - delay, atol=1e-7)
+
+
+def test_code_for_steps_is_made_once_for_a_shape_and_that_of_errors_only_where_they_are_told() -> None:
+    """ẍ = −k x³ and ẍ = −k sin x have one shape: the second one, a new model, compiles its series alone.
+
+    Motions from rest with the rate u have ẋ²/2 + V = u²/2, with V = k x⁴/4 and k (1 − cos x).
+    """
+    ends = []
+    for force, energy in (("-k*m*x^3", lambda x: x**4 / 4.0), ("-k*m*sin(x)", lambda x: 1.0 - np.cos(x))):
+        scene = read_scene(document({"x": (0.0, 0.5)}, {"m": 1.0, "k": 1.3}, ONE, [{**PUSH, "force": [force, "0"]}]))
+        problem = problem_of(scene, 3.0, 4)
+        ensemble = cloud(problem, 9)
+        for near in (0, 5):
+            before = code_of_steps.cache_info().misses, code_of_neighbours.cache_info().misses
+            found = in_lanes(
+                ensemble, np.linspace(0.0, 3.0, 4), Steps(1.0, 1e-14), np.zeros(1, dtype=np.int64), near=near
+            )
+            after = code_of_steps.cache_info().misses, code_of_neighbours.cache_info().misses
+            ends.append((after[0] - before[0], after[1] - before[1]))
+            k, (x, v) = ensemble.parameters[:, 1, None], np.moveaxis(found.samples[:, :, :2], 2, 0)
+            kept = v**2 / 2.0 + k * energy(x)
+            np.testing.assert_allclose(kept, np.repeat(kept[:, :1], 4, axis=1), atol=1e-13)
+            assert np.abs(np.diff(x, axis=1)).min() > 1e-3
+    assert ends[0][1] == 0
+    assert ends[2:] == [(0, 0), (0, 0)]
 
 
 def test_runs_do_not_depend_on_their_neighbours() -> None:
