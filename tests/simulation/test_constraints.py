@@ -219,6 +219,18 @@ def test_kicks_keep_a_symplectic_method_of_low_order_one(method: str) -> None:
     assert spans[1] < 1.2 * spans[0], spans
 
 
+@pytest.mark.parametrize("method", LOW)
+def test_kicks_are_found_along_with_the_stages(method: str) -> None:
+    """No step is made again for them, and a rod beside the rod, whose kicks are not unique, changes no motion."""
+    rods = double_pendulum((1.0, 0.5), (0.3, 0.2), {"m1": 1.0, "m2": 0.5, "l1": 1.0, "l2": 0.7, "g": G})
+    cost = simulate(problem_of(rods, 10.0, 11), get_method(method), step=0.004, with_error=False).cost
+    assert cost.run_evaluations < 11 * cost.steps
+    problems = (problem_of(pendulum(), 3.0, 51), doubled(pendulum(), 3.0))
+    once, twice = (simulate(each, get_method(method), step=0.01, with_error=False) for each in problems)
+    assert twice.outcome.status == "ok"
+    assert np.abs(twice.values - once.values).max() < 1e-12
+
+
 def test_a_fast_force_on_a_held_particle_is_seen() -> None:
     """A blow of a millisecond, between steps that a resting pendulum would let grow: m Δv = ∫F dt sets it swinging."""
     blow = {"name": "blow", "kind": "force", "at": "bob", "force": ["F*exp(-((t - c)/w)^2)", "0"]}

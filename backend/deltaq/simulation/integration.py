@@ -74,8 +74,9 @@ def _partitioned(scheme: Partitioned, arguments: KernelArguments) -> Result:
     problem = arguments.problem
     if scheme.kicks and problem.model.phase.is_separable and not problem.is_constrained:
         return _split(scheme, arguments)
+    kicked = problem.model.layout.holonomic if is_kicked(scheme, problem) else 0
     phase = free_phase_of(problem) if is_kicked(scheme, problem) else phase_of(problem)
-    workspace = make_implicit_workspace(problem.state, problem.degrees, scheme.stages)
+    workspace = make_implicit_workspace(problem.state, problem.degrees, scheme.stages, kicked)
     weights = implicit_weights(scheme)
     return integrate_implicit(
         arguments.motion, phase, weights, arguments.control, arguments.watch, workspace, arguments.times, arguments.out

@@ -10,7 +10,7 @@ import numpy as np
 from .collocation import sample_stages
 from .compiler import inline, kernel, runtime_int
 from .hermite import sample_between
-from .implicit_step import attempt_kept, differentiate, prepare
+from .implicit_step import attempt_implicit, differentiate, prepare
 from .implicit_workspace import ImplicitWorkspace, accept_step
 from .loop import Result, advance_time, begin, interruption
 from .motion import FINE, HELD, NEWTON_FAILED, STEP_UNDERFLOW, Floats, Motion, rhs
@@ -170,7 +170,9 @@ def integrate_implicit(
         outcome = prepare(weights, h, workspace) if assembled_h != h else FINE
         assembled_h, slowness, error = h, 0.0, 0.0
         if outcome == FINE:
-            outcome, made, slowness, error = attempt_kept(motion, phase, weights, control.tolerance, t, h, workspace)
+            outcome, made, slowness, error = attempt_implicit(
+                motion, phase, weights, control.tolerance, t, h, workspace
+            )
             evaluations += made
         if outcome == FINE and error <= 1.0:
             held = detect_hold(

@@ -7,12 +7,12 @@ import numpy as np
 from .compiler import inline
 from .implicit_error import error_of, prepare_error
 from .implicit_workspace import ImplicitWorkspace, compensated_sum
+from .kicks import prepare_kicks
 from .motion import FINE, NEWTON_FAILED, NOT_FINITE, TOO_LARGE, Motion, finish_constrained, rhs
 from .newton import assemble, newton
 from .phase import Phase, linearize, momenta, velocity
 from .stages import ImplicitWeights, Start, midpoint
 from .step import LARGEST_VALUE
-from .system import KICKED
 
 
 @inline
@@ -48,14 +48,9 @@ def finish(
 
 @inline
 def finish_momenta(motion: Motion, phase: Phase, t: float, h: float, workspace: ImplicitWorkspace) -> int:
-    """The new state brought back onto the constraints, and the momenta there; returns the outcome.
-
-    KICKED if the step is to be made again with other momenta at its start, which they are then.
-    """
+    """The new state brought back onto the constraints, and the momenta there; returns the outcome."""
     ends, n = workspace.ends, motion.degrees
     outcome = finish_constrained(motion, t, h, ends.old, ends.new, ends.old_derivative, ends.new_derivative)
-    for d in range(n if outcome == KICKED else 0):
-        workspace.p[d] += ends.old_derivative[d]
     momenta(phase, t + h, ends.new[:n], ends.new[n : 2 * n], workspace.new_p, workspace.stages.spare[0])
     return outcome
 
@@ -94,30 +89,19 @@ def attempt_implicit(
     Returns the outcome, the evaluations made, the ratio of the first two corrections, and the error over what is
     tolerated.
     """
-    n = workspace.p.size
-    start = Start(workspace.ends.old[:n], workspace.ends.old[n : 2 * n], workspace.p)
-    outcome, iterations, slowness = newton(phase, weights, t, h, 0.02 * tolerance, start, workspace.stages)
+    n, stages, kicks = workspace.p.size, workspace.stages, workspace.kicks
+    start, now = Start(workspace.ends.old[:n], workspace.ends.old[n : 2 * n], workspace.p), (t, h, 0.02 * tolerance)
+    outcome, iterations, slowness = FINE, 0, 0.0
+    if kicks.right.size > 0:
+        outcome = prepare_kicks(motion, weights, t, h, start, stages, kicks)
+    if outcome == FINE:
+        outcome, iterations, slowness = newton(motion, phase, weights, now, start, stages, kicks)
     if outcome == FINE:
         outcome = finish(motion, phase, weights, t, h, workspace)
     error = error_of(weights, tolerance, h, workspace) if outcome == FINE and tolerance > 0.0 else 0.0
     if outcome == FINE and error <= 1.0 and motion.finish != 0:
         outcome = finish_momenta(motion, phase, t, h, workspace)
+    if outcome != FINE and kicks.right.size > 0:
+        for d in range(n):
+            workspace.p[d] = kicks.p[d]
     return outcome, weights.b.size * iterations + 1, slowness, error
-
-
-@inline
-def attempt_kept(
-    motion: Motion,
-    phase: Phase,
-    weights: ImplicitWeights,
-    tolerance: float,
-    t: float,
-    h: float,
-    workspace: ImplicitWorkspace,
-) -> tuple[int, int, float, float]:
-    """`attempt_implicit`, once, or, where kicks keep the constraints, until the new positions do."""
-    outcome, made, slowness, error = KICKED, 0, 0.0, 0.0
-    while outcome == KICKED:
-        outcome, more, slowness, error = attempt_implicit(motion, phase, weights, tolerance, t, h, workspace)
-        made += more
-    return outcome, made, slowness, error

@@ -8,6 +8,7 @@ import numpy as np
 
 from .compiler import inline
 from .hermite import Ends, make_ends
+from .kicks import Kicks, make_kicks
 from .linear import Indices
 from .motion import Floats
 from .stages import Stages, make_stages
@@ -18,7 +19,7 @@ class ImplicitWorkspace(NamedTuple):
 
     `p`, `new_p` (momenta) and `rate` (ṗ at the start) have shape (n,); `compensation` and `new_compensation` (of q,
     then p, then the work), `error`, `state` and `derivative` shape (width,); `error_matrix` shape (n, n), its
-    `error_pivots` (n,); `powers`, those at the stages in W, shape (stages,).
+    `error_pivots` (n,); `powers`, those at the stages in W, shape (stages,). `kicks` keep positions on constraints.
     """
 
     p: Floats
@@ -34,10 +35,14 @@ class ImplicitWorkspace(NamedTuple):
     state: Floats
     derivative: Floats
     powers: Floats
+    kicks: Kicks
 
 
-def make_implicit_workspace(state: Floats, n: int, count: int) -> ImplicitWorkspace:
-    """The workspace of `count` stages for n coordinates, at an initial state of shape (width,)."""
+def make_implicit_workspace(state: Floats, n: int, count: int, kicked: int = 0) -> ImplicitWorkspace:
+    """The workspace of `count` stages for n coordinates, at an initial state of shape (width,).
+
+    `kicked` is how many constraints are kept by kicks.
+    """
     line, wide = np.zeros(n), np.zeros(state.size)
     return ImplicitWorkspace(
         line.copy(),
@@ -53,6 +58,7 @@ def make_implicit_workspace(state: Floats, n: int, count: int) -> ImplicitWorksp
         wide.copy(),
         wide.copy(),
         np.zeros(count),
+        make_kicks(kicked, count, n),
     )
 
 

@@ -13,8 +13,9 @@ from __future__ import annotations
 import numpy as np
 
 from .compiler import inline
+from .kicks import Kicks, kick
 from .linear import decompose, substitute
-from .motion import FINE, NEWTON_FAILED, NOT_FINITE, ROUNDING, Floats
+from .motion import FINE, NEWTON_FAILED, NOT_FINITE, ROUNDING, Floats, Motion
 from .phase import Phase, momenta
 from .stages import ImplicitWeights, Stages, Start
 
@@ -51,8 +52,8 @@ def evaluate(phase: Phase, weights: ImplicitWeights, t: float, h: float, q: Floa
 
 
 @inline
-def correct(weights: ImplicitWeights, h: float, p: Floats, stages: Stages) -> float:
-    """One Newton correction of all Vᵢ; returns its largest component. `p`, shape (n,), are the momenta at the start."""
+def correct(weights: ImplicitWeights, h: float, p: Floats, stages: Stages) -> None:
+    """Newton's correction of all Vᵢ, into `residual`; `p`, shape (n,), are the momenta at the start."""
     count, n = stages.q.shape
     for i in range(count):
         for d in range(n):
@@ -61,6 +62,12 @@ def correct(weights: ImplicitWeights, h: float, p: Floats, stages: Stages) -> fl
                 change += weights.momentum_a[i, j] * stages.r[j, d]
             stages.residual[i * n + d] = p[d] - stages.p[i, d] + h * change
     substitute(stages.matrix, stages.pivots, stages.residual)
+
+
+@inline
+def take(stages: Stages) -> float:
+    """All Vᵢ corrected; returns the largest component of what corrects them."""
+    count, n = stages.q.shape
     largest = 0.0
     for i in range(count):
         for d in range(n):
@@ -88,16 +95,28 @@ def rounding_floor(h: float, q: Floats, v: Floats, stages: Stages) -> tuple[floa
 
 @inline
 def newton(
-    phase: Phase, weights: ImplicitWeights, t: float, h: float, tolerance: float, start: Start, stages: Stages
+    motion: Motion,
+    phase: Phase,
+    weights: ImplicitWeights,
+    now: tuple[float, float, float],
+    start: Start,
+    stages: Stages,
+    kicks: Kicks,
 ) -> tuple[int, int, float]:
     """Iterates until corrections are rounding errors, or (tolerance > 0) change positions by less than that.
 
+    `now` = (t, h, tolerance). Where kicks keep constraints, each correction brings the new positions onto them as well.
+
     Returns the outcome, the number of iterations and the ratio of the first two corrections.
     """
+    t, h, tolerance = now
     before, ratio, slowness = np.inf, 0.0, 0.0
     for iteration in range(1, MOST_ITERATIONS + 1):
         evaluate(phase, weights, t, h, start.q, stages)
-        correction = correct(weights, h, start.p, stages)
+        correct(weights, h, start.p, stages)
+        if kicks.right.size > 0:
+            kick(motion, weights, t, h, start, stages, kicks)
+        correction = take(stages)
         if not correction < np.inf:
             return NOT_FINITE, iteration, np.inf
         speed, floor = rounding_floor(h, start.q, start.v, stages)

@@ -9,7 +9,7 @@ from __future__ import annotations
 import numpy as np
 
 from .compiler import inline, kernel, subroutine
-from .constraints import accelerate, power_of, respond, weigh
+from .constraints import accelerate, power_of, weigh
 from .motion import FINE, LOCKED, NEWTON_FAILED, NOT_FINITE, Floats
 from .pointer import call, prevent_vectorization
 from .ranked import determinant, factor_ranked, solve_ranked
@@ -19,10 +19,7 @@ from .system import (
     GAPS,
     GAPS_DATA,
     HOLONOMIC,
-    IS_KICKED,
     IS_UNDER_WAY,
-    KICKED,
-    KICKS,
     POWERED,
     RANK,
     System,
@@ -33,7 +30,6 @@ from .system import (
 CORRECTIONS, CLOSE = 12, 1e-9  # Newton's corrections of a state; behind one this small, relative to it, comes rounding
 GRAIN = 2.0**-52  # of the first correction: a coordinate that is zero on the constraints gets no nearer
 STALLED = 0.5  # corrections that are no smaller than this part of the one before are rounding errors, if they are small
-FIRM, MOST_KICKS = 1e-14, 50  # of positions, relative to them, what a step may leave; and its tries
 HALVINGS = 26  # of a step in which the constraints seem to turn round
 
 Ends = tuple[Floats, Floats, Floats, Floats]  # states at both ends of a step, then their derivatives: shape (width,)
@@ -201,57 +197,14 @@ def begin_way(system: System, t: float, state: Floats) -> int:
 
 
 @subroutine
-def kick(system: System, t: float, h: float, ends: Ends) -> int:
-    """The change of the momenta at the start of a step that puts its end on g = 0; KICKED, or FINE if it is there.
-
-    A step of a symplectic method between two kicks A(q₀)ᵀν and A(q₁)ᵀμ, with ν such that g(q₁) = 0 and μ such that
-    w(q₁) = 0, is symplectic on the constraints: with Störmer–Verlet this is RATTLE. ν by simplified Newton iteration,
-    ∂q₁/∂ν ≈ h M⁻¹Aᵀ; the change goes into the old derivative's first n components.
-    Source: Hairer, Lubich, Wanner, Geometric Numerical Integration, 2nd ed., VII.1.4.
-    """
-    old, new, change, _ = ends
-    n, holonomic, rows = system.head[DEGREES], system.head[HOLONOMIC], place_of_rows(system)
-    take_state(system, t + h, new)
-    read_gaps(system)
-    for k in range(holonomic):
-        system.multipliers[k] = system.gaps[k]
-    take_state(system, t, old)
-    outcome = respond(system)
-    if outcome != FINE:
-        return outcome
-    weigh(system, holonomic, system.of_gaps)
-    rank, _ = factor_ranked(system.of_gaps, system.gap_order, holonomic)
-    solve_ranked(system.of_gaps, system.gap_order, holonomic, rank, system.scales, system.multipliers)
-    largest = 0.0
-    for i in range(n):
-        change[i], moved = 0.0, 0.0
-        for k in range(holonomic):
-            change[i] -= system.multipliers[k] * system.outputs[rows + k * n + i] / h
-            moved += system.multipliers[k] * system.responses[k * n + i]
-        reach = max(1e-300, abs(new[i]), abs(h * new[n + i]))
-        largest = abs(moved) / reach if not abs(moved) / reach <= largest else largest
-    system.head[KICKS] += 1
-    if not largest < np.inf or system.head[KICKS] > MOST_KICKS:
-        system.head[KICKS] = 0
-        return NEWTON_FAILED
-    if largest <= FIRM or (system.head[KICKS] > 3 and largest <= CLOSE and largest >= STALLED * system.right[0]):
-        system.head[KICKS] = 0
-        return FINE
-    system.right[0] = largest
-    return KICKED
-
-
-@subroutine
 def finish_step(system: System, t: float, h: float, ends: Ends) -> int:
     """The new state of a step projected, and its derivative; returns the outcome.
 
-    LOCKED if the constraints lost their independence on the way, KICKED if the step is to be made again by `kick`.
+    LOCKED if the constraints lost their independence on the way.
     """
     prevent_vectorization()
     old, new, _, new_derivative = ends
     n, outcome = system.head[DEGREES], begin_way(system, t, old)
-    if outcome == FINE and system.head[IS_KICKED] and system.head[HOLONOMIC] > 0:
-        outcome = kick(system, t, h, ends)
     if outcome == FINE:
         take_state(system, t + h, new)
         outcome = settle(system, h)

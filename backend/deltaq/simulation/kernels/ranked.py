@@ -1,4 +1,5 @@
-"""Symmetric matrices that may have no full rank: factors with pivoting, and solutions in what is independent.
+"""Matrices that may have no full rank, symmetric or nearly so: factors with pivoting along the diagonal, and solutions
+in what is independent.
 
 Source: Higham, Accuracy and Stability of Numerical Algorithms, 2nd ed., §10.3.
 """
@@ -35,10 +36,10 @@ def largest_pivot(share: Floats, count: int, k: int) -> int:
 
 @inline
 def factor_ranked(share: Floats, order: Indices, count: int) -> tuple[int, float]:
-    """L D Lᵀ of a matrix with unit diagonal in place: its rank, and its smallest pivot above SMALLEST_SHARE.
+    """L D U of a matrix with unit diagonal in place: its rank, and its smallest pivot above SMALLEST_SHARE.
 
-    `share`, shape (≥ count²,), holds it by rows, `order`, shape (≥ count,), receives the order of its rows. The rank is
-    −1 if a number is not finite.
+    L and U have diagonals of ones; of a symmetric matrix U is Lᵀ. `share`, shape (≥ count²,), holds it by rows,
+    `order`, shape (≥ count,), receives the order of its rows. The rank is −1 if a number is not finite.
     """
     smallest = 1.0
     for k in range(count):
@@ -56,11 +57,11 @@ def factor_ranked(share: Floats, order: Indices, count: int) -> tuple[int, float
         smallest = min(smallest, pivot)
         for i in range(k + 1, count):
             part = share[i * count + k] / pivot
-            for j in range(k + 1, i + 1):
+            for j in range(k + 1, count):
                 share[i * count + j] -= part * share[k * count + j]
-                share[j * count + i] = share[i * count + j]
-        for i in range(k + 1, count):
-            share[i * count + k] = share[k * count + i] / pivot
+            share[i * count + k] = part
+        for j in range(k + 1, count):
+            share[k * count + j] /= pivot
     return count, smallest
 
 
@@ -80,7 +81,7 @@ def solve_ranked(share: Floats, order: Indices, count: int, rank: int, scales: F
     for k in range(rank - 1, -1, -1):
         total = right[order[k]] / share[k * count + k]
         for j in range(k + 1, rank):
-            total -= share[j * count + k] * right[order[j]]
+            total -= share[k * count + j] * right[order[j]]
         right[order[k]] = total
     for k in range(rank, count):
         right[order[k]] = 0.0

@@ -15,7 +15,6 @@ from .system import (
     COUNT,
     DEGREES,
     HOLONOMIC,
-    IS_KICKED,
     IS_UNDER_WAY,
     POWERED,
     SOLVED,
@@ -112,12 +111,6 @@ def constrained_finish(
         doubles_at(old_derivative, width),
         doubles_at(new_derivative, width),
     )
-    is_kicked = system.head[IS_KICKED] != 0 and system.head[HOLONOMIC] > 0
-    if (
-        system.head[SOLVED] != 0
-        and system.head[IS_UNDER_WAY] != 0
-        and not is_kicked
-        and finish_solved(system, t, h, ends)
-    ):
+    if system.head[SOLVED] != 0 and system.head[IS_UNDER_WAY] != 0 and finish_solved(system, t, h, ends):
         return FINE
     return finish_step(system, t, h, ends)
