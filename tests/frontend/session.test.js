@@ -209,6 +209,7 @@ for (const [there, asked] of /** @type {[any, string[]][]} */ ([
   [{ release: "l" }, ["derive", "simulate"]],
   [{ more: "canonical" }, ["derive"]],
   [{ duration: 20 }, ["simulate"]],
+  [{ method: "rk4" }, ["simulate"]],
   [{ method: "rk4", duration: 20 }, ["simulate"]],
   [{ formulation: "hamilton" }, ["derive"]],
   [{ scene: "top", step: "x", set: "C:3" }, ["derive", "scene", "simulate"]],

@@ -24,3 +24,20 @@ test("states are not changed in place", () => {
   store.set({ a: 2 });
   assert.deepEqual([before, store.get()], [{ a: 1 }, { a: 2 }]);
 });
+
+test("who listens hears of every later change as well, until one has had enough", () => {
+  /** @type {(() => void)[]} */
+  const tasks = [];
+  const store = createStore({ a: 1 }, (task) => tasks.push(task));
+  /** @type {number[]} */
+  const heard = [];
+  const stop = store.subscribe(({ a }) => heard.push(a));
+  for (const a of [2, 3]) {
+    store.set({ a });
+    tasks.splice(0).forEach((task) => task());
+  }
+  stop();
+  store.set({ a: 4 });
+  tasks.splice(0).forEach((task) => task());
+  assert.deepEqual([heard, store.get().a], [[2, 3], 4]);
+});
