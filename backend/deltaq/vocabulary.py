@@ -38,7 +38,7 @@ Stability = Literal["stable", "undecided", "unstable"]
 StabilityKind = Literal["family", "gyroscopic", "degenerate", "band"]
 # Why a search for equilibria is not complete: its operations were spent, equilibria are not isolated, or constraints
 # depend on one another in some of them.
-SearchEnd = Literal["budget", "continuum", "singular", "contacts"]
+SearchEnd = Literal["budget", "continuum", "singular", "kinks", "contacts"]
 # Parts that a derivation is complete without, and why one is missing: it has not been asked for, its operations were
 # spent, its time was over, it failed, or it is not made for scenes with constraints, or on rates; and of multipliers
 # written out: they are too long or too many.

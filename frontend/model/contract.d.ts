@@ -3542,7 +3542,7 @@ export interface components {
              * Left Out
              * @description why it is not complete
              */
-            left_out: ("budget" | "continuum" | "singular" | "contacts") | null;
+            left_out: ("budget" | "continuum" | "singular" | "kinks" | "contacts") | null;
         };
         /**
          * EquilibriumValue

@@ -218,3 +218,11 @@ def test_a_stiffness_without_the_reactions_is_not_verified(monkeypatch: pytest.M
     assert not steps["linearization:1"].verified
     monkeypatch.undo()
     assert model_steps(load_scene("cartesian-pendulum"))["linearization:1"].verified
+
+
+def test_a_kink_on_a_circle_may_be_at_rest_as_well() -> None:
+    """V = −m g y + 2 m g |x − l/2|: at x = l/2 the force jumps over balance, which the search says it leaves out."""
+    kink = {"kind": "potential", "energy": "2*m*g*abs(x - l/2)"}
+    system = System(particle([CIRCLE], kink))
+    assert (found(system).complete, found(system).left_out) == (False, "kinks")
+    assert model_steps(particle([CIRCLE], kink))["equilibrium-search"].about["outcome"] == "kinks"

@@ -29,13 +29,13 @@ from .equilibria import (
     RANGE,
     Equilibrium,
     Search,
+    beside_jumps,
     domain,
     free_coordinates,
     is_angle,
     is_within,
     search,
     start_point,
-    without_contacts,
 )
 from .matrix_form import forces_at_rest, is_autonomous, mass_matrix
 from .program import number
@@ -65,7 +65,7 @@ def bound_search(system: System) -> Search | None:
     """The search with holonomic constraints; None where time is in the laws or the constraints."""
     if not is_autonomous(system):
         return None
-    return without_contacts(system, within(system, Budget(SHARE * OPERATIONS)))
+    return beside_jumps(system, within(system, Budget(SHARE * OPERATIONS)))
 
 
 def within(system: System, budget: Budget) -> Search:

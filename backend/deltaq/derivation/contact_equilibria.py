@@ -40,7 +40,7 @@ from .closed_form import Sought, closed_form
 from .conservation import is_passive
 from .dissipation import is_dissipative
 from .enclosure import Budget
-from .equilibria import BITS, NOTHING, OPERATIONS, Equilibrium, domain, is_within, point_at
+from .equilibria import BITS, NOTHING, OPERATIONS, Equilibrium, domain, is_jumping, is_within, point_at
 from .impacts import bouncing, frictions, gap, moving_term
 from .linearization import damping_at_rest, on_constraints
 from .matrix_form import is_autonomous
@@ -101,7 +101,7 @@ def contact_search(system: System) -> ContactSearch | None:
     found = list[ContactEquilibrium]()
     for each in (one for search in searches for one in search.found):
         found += [each] if _is_new(system, each, found) else []
-    complete = len(choices) <= MOST and all(search.complete for search in searches)
+    complete = len(choices) <= MOST and all(search.complete for search in searches) and not is_jumping(system)
     ranges = {q: ends for search in searches for q, ends in search.ranges.items()}
     return ContactSearch(tuple(sorted(found, key=lambda each: ORDER.index(each.stability))), complete, ranges)
 

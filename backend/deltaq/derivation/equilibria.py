@@ -6,6 +6,7 @@ recognized as a closed form where that is quick. A search says whether it is com
 
 Only where every event's value is not negative does the scene hold: positions behind a contact, or where a string is
 slack, are no equilibria of it. With a closed contact its reaction acts as well; such positions are not sought here.
+Nor are those at a kink of the potential, where a force jumps from one sign to the other and vanishes on neither side.
 
 Where the mass matrix is singular the coordinates describe a position badly, and f = 0 is not enough: it is an
 equilibrium only if fᵀM⁻¹f, the square of the acceleration out of rest, vanishes towards it (at the cusp of a cycloid it
@@ -23,6 +24,7 @@ from itertools import islice, product
 import sympy as sp
 from flint import arb, arb_mat, ctx
 
+from ..language.derivatives import diff
 from ..language.memory import cached_method
 from ..mechanics.coordinate import Coordinate
 from .closed_form import Known, Sought, closed_form
@@ -66,8 +68,9 @@ class Search:
 
     `ranges` tells between which values coordinates were searched that are not searched everywhere. `left_out` says why
     a search is not complete: "budget", "continuum" where equilibria are not isolated and others may lie apart,
-    "singular" where constraints depend on one another, so that their multipliers are not unique, or "contacts" where
-    only those were sought that touch none. `beyond` counts positions where no force acts, but the scene does not hold.
+    "singular" where constraints depend on one another, so that their multipliers are not unique, "kinks" where only
+    those were sought that lie beside jumps of the forces, or "contacts" where only those that touch none. `beyond`
+    counts positions where no force acts, but the scene does not hold.
     """
 
     found: tuple[Equilibrium, ...]
@@ -98,7 +101,7 @@ def search(system: System) -> Search | None:
         return None
     parts = list(_parts(system))
     if any(not part.unknowns for part in parts):
-        return without_contacts(system, Search((), 0, complete=True, ranges={}))
+        return beside_jumps(system, Search((), 0, complete=True, ranges={}))
     budget = Budget(OPERATIONS)
     solved = [_solved(system, part, budget) for part in parts]
     known = [[_recognized(system, part, each) for each in s.found] for part, s in zip(parts, solved, strict=True)]
@@ -107,14 +110,35 @@ def search(system: System) -> Search | None:
     ranged = frozenset[sp.Symbol]().union(*(s.ranged for s in solved))
     ranges = {q: domain(system).ranges[system.q(q)] for q in system.free if system.q(q) in ranged}
     reason = "" if complete else "budget" if budget.left <= 0 else "continuum"
-    return without_contacts(system, Search(found, count, complete, ranges, reason, beyond))
+    return beside_jumps(system, Search(found, count, complete, ranges, reason, beyond))
 
 
-def without_contacts(system: System, found: Search) -> Search:
-    """The search as what it is where contacts may close: one for equilibria with all of them open."""
+def beside_jumps(system: System, found: Search) -> Search:
+    """The search as what it is: one for equilibria beside jumps of the forces, with all contacts open."""
+    if is_jumping(system) and found.left_out in {"", "continuum"}:
+        return replace(found, complete=False, left_out="kinks")
     if not found.complete or not any(event.bounces for event in system.scene.events):
         return found
     return replace(found, complete=False, left_out="contacts")
+
+
+@cached_method
+def is_jumping(system: System) -> bool:
+    """Whether a force jumps anywhere as coordinates change. One that is multiplied by zero there does not."""
+    forces = system.display(forces_at_rest(system).xreplace(dict(system.parameter_values)))
+    return any(_jumps(system, force, switch) for force in forces for switch in force.atoms(sp.sign, sp.Heaviside))
+
+
+def _jumps(system: System, force: sp.Expr, switch: sp.Expr) -> bool:
+    """Whether a force is another one on either side of where a switch is zero; where that is not known, it is."""
+    (value,) = switch.args[:1]
+    difference = force.xreplace({switch: sp.Integer(1)}) - force.xreplace({switch: switch.func(-1)})
+    slopes = {q: diff(value, q) for q in map(system.q, system.free) if value.has(q)}
+    linear = next((q for q, slope in slopes.items() if slope.is_number and slope != 0), None)
+    if linear is None:
+        return bool(slopes)
+    crossing = linear - value / slopes[linear]
+    return not system.is_zero(difference.xreplace({linear: crossing}))
 
 
 def _combined(system: System, parts: list[list[Equilibrium]]) -> tuple[tuple[Equilibrium, ...], int, int]:
