@@ -196,7 +196,7 @@ def test_no_program_of_a_release_where_motions_jump() -> None:
     with pytest.raises(RequestError) as caught:
         export_request({"form": "python", "scene": scene, "release": ["h"]})
     assert [(problem.code, problem.pointer) for problem in caught.value.problems] == [
-        ("release-with-jumps", "/release")
+        ("release-with-impacts", "/release")
     ]
 
 

@@ -235,7 +235,7 @@ REFUSED = [
     pytest.param({"y_to": 1e308}, "request-outside", "/y_to", id="as far as numbers go"),
     pytest.param({"x_from": math.inf}, "request-not-finite", "/x_from", id="not finite"),
     pytest.param({"scene": "cartesian-pendulum"}, "lab-starts-with-constraints", "/scene", id="constraints"),
-    pytest.param({"scene": "stick-slip"}, "lab-jumps", "/scene", id="dry friction"),
+    pytest.param({"scene": "stick-slip"}, "lab-friction", "/scene", id="dry friction"),
 ]
 
 

@@ -369,7 +369,7 @@ REFUSED = [
     pytest.param(
         {"scene": "pendulum", "sweep": swept("l", 1, 2)}, "bifurcation-conservative", "/scene", id="free pendulum"
     ),
-    pytest.param({"scene": STICKING, "sweep": swept("F", 1, 2)}, "bifurcation-friction", "/scene", id="friction"),
+    pytest.param({"scene": STICKING, "sweep": swept("F", 1, 2)}, "lab-sliding", "/scene", id="friction"),
     pytest.param({"scene": PULSED, "sweep": swept("F", 1, 2)}, "bifurcation-no-period", "/period", id="no period"),
     pytest.param(
         {"scene": line("-k*x^2/2", "F*cos(omega*t)", k=1.0, F=1.0, omega=1.0), "sweep": swept("F", 1, 2), "skip": 200},

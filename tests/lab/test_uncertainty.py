@@ -308,8 +308,8 @@ REFUSED = [
     pytest.param({"uncertain": "rates"}, "request-not-one-of", "/uncertain", id="no such choice"),
     pytest.param({"scene": EMPTY, "uncertain": "parameters"}, "uncertainty-nothing", "/uncertain", id="no parameters"),
     pytest.param({"scene": "four-bar"}, "lab-constraints", "/scene", id="constraints"),
-    pytest.param({"scene": "bouncing-ball"}, "lab-jumps", "/scene", id="impacts"),
-    pytest.param({"scene": "stick-slip"}, "lab-jumps", "/scene", id="dry friction"),
+    pytest.param({"scene": "bouncing-ball"}, "lab-impacts", "/scene", id="impacts"),
+    pytest.param({"scene": "stick-slip"}, "lab-friction", "/scene", id="dry friction"),
 ]
 
 

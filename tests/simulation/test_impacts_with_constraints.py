@@ -155,7 +155,7 @@ def test_a_block_whose_friction_is_too_small_goes_on() -> None:
 def test_a_program_does_not_pretend_to_know_such_motions() -> None:
     with pytest.raises(RequestError) as caught:
         script(read_scene(hung(0.8)), "en", 1.0)
-    assert [each.code for each in caught.value.problems] == ["program-jumps-with-constraints"]
+    assert [each.code for each in caught.value.problems] == ["program-friction-with-constraints"]
 
 
 def test_friction_tells_what_acts_and_how_much_may() -> None:

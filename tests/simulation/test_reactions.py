@@ -41,7 +41,7 @@ def test_no_reaction_is_told_where_accelerations_are_those_of_several_modes() ->
     assert run({**PENDULUM, "scene": rough})["status"] == "ok"
     with pytest.raises(RequestError) as caught:
         run({**PENDULUM, "scene": rough, "release": ["l"]})
-    assert caught.value.problems == (Problem("release-with-jumps", "/release"),)
+    assert caught.value.problems == (Problem("release-with-friction", "/release", parameters={"names": "rough"}),)
 
 
 def test_what_nothing_holds_is_refused_where_it_is_asked() -> None:

@@ -16,6 +16,7 @@ from ..derivation.released import Release
 from ..derivation.system import System
 from ..errors import Problem, RequestError
 from ..mechanics.event import Event
+from ..mechanics.jumps import jumps
 from ..mechanics.scene import Scene
 from ..mechanics.user_text import UserText
 from ..narration.derive import releases_of
@@ -209,8 +210,8 @@ def script(scene: Scene, language: str, t_end: float, release: Sequence[str] = (
     """
     system = System(scene)
     releases = releases_of(system, release)
-    if releases and switches(system):
-        raise RequestError(Problem("release-with-jumps", "/release"))
+    if releases:
+        _refuse(scene, Problem("release-with-impacts", "/release"), Problem("release-with-friction", "/release"))
     words = Words(system)
     free = scene.free
     unpacked = {
@@ -233,9 +234,9 @@ def script(scene: Scene, language: str, t_end: float, release: Sequence[str] = (
         "forcing": words.vector(smooth_forcing(system)),
         "positions": "{" + ", ".join(_positions(system, words)) + "}",
     }
-    if scene.constraints and switches(system):
-        raise RequestError(Problem("program-jumps-with-constraints", "/scene"))
     if scene.constraints:
+        impacts = Problem("program-impacts-with-constraints", "/scene")
+        _refuse(scene, impacts, Problem("program-friction-with-constraints", "/scene"))
         content |= _constrained(system, words, content)
     else:
         ends = "".join(f"{name}, " for name in called)
@@ -243,6 +244,13 @@ def script(scene: Scene, language: str, t_end: float, release: Sequence[str] = (
     if releases:
         content |= _released(releases, system, words, content)
     return TEMPLATE.format(functions=", ".join(words.functions), **content)
+
+
+def _refuse(scene: Scene, impacts: Problem, friction: Problem) -> None:
+    """Raises RequestError where motions jump or stick, with what makes them do so."""
+    refused = tuple(jumps(scene, impacts, friction))
+    if refused:
+        raise RequestError(*refused)
 
 
 def _released(releases: Sequence[Release], system: System, words: Words, content: Mapping[str, str]) -> dict[str, str]:

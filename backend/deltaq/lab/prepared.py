@@ -30,6 +30,7 @@ from .hysteresis import Sweep
 from .passages import PER_STEP, View
 from .period import clocks, common_period
 from .plane import SIGNS, parsed
+from .sliding import require_no_sliding
 from .subject import Subject, bounded, free_subject_of, parameter_of
 
 MOST_STEPS = 200_000  # of one motion
@@ -61,8 +62,7 @@ def prepared(request: BifurcationRequest) -> Prepared:
     place = parameter_of(subject, request.sweep.parameter, "/sweep/parameter")
     _require_values(subject, request)
     problem = bounded(subject, MOST_STEPS)
-    if problem.model.switches is not None:
-        raise RequestError(Mistake("bifurcation-friction", "/scene"))
+    require_no_sliding(problem)
     values = np.linspace(request.sweep.start, request.sweep.to, request.sweep.count)
     name = request.sweep.parameter
     observables = Observables(subject.scene, (name,))

@@ -9,10 +9,10 @@ from ..contract.experiment import ExperimentRequest
 from ..errors import Problem as Mistake
 from ..errors import RequestError, UnknownNameError
 from ..language.spelling import in_unicode, latex_of
+from ..mechanics.jumps import jumps
 from ..mechanics.requests import begun_scene, inside
 from ..mechanics.scene import Scene
 from ..mechanics.user_text import plainly
-from ..model.modes import modes_of
 from ..simulation.driver import is_suitable, require_suitable
 from ..simulation.library import get_method, method_ids
 from ..simulation.method import Method
@@ -63,9 +63,9 @@ def subject_of(request: ExperimentRequest, samples: int = 501) -> Subject:
     or dry friction: experiments follow one set of equations, and motions that jump or stick follow several.
     """
     begun = begun_scene(request)
-    modes = modes_of(begun)
-    if modes and modes.rows:
-        raise RequestError(Mistake("lab-jumps", "/scene"))
+    refused = tuple(jumps(begun, Mistake("lab-impacts", "/scene"), Mistake("lab-friction", "/scene")))
+    if refused:
+        raise RequestError(*refused)
     scene = replace(begun, events=())  # it is about the equations, as if nothing ended the motion
     with inside("/scene"):
         return Subject(scene, problem_of(scene, request.t_end, samples))

@@ -20,8 +20,8 @@ from functools import lru_cache
 
 import symengine as se
 
-from ..language.tree import Name, walk
 from ..mechanics.contributions import Friction
+from ..mechanics.jumps import frictions_of
 from ..mechanics.scene import Scene
 from .compiled import Compiled, compile_expressions
 from .equations import Equations, equations, guided_into
@@ -85,7 +85,7 @@ def modes_of(scene: Scene) -> Modes | None:
 def _made_once(mechanics: Mechanics) -> Modes | None:
     scene = mechanics.scene
     bounces = any(event.bounces for event in scene.events)
-    frictions = _frictions(scene)
+    frictions = frictions_of(scene)
     if not (bounces or frictions or has_switches(scene)):
         return None
     found = _Assembly(scene)
@@ -114,16 +114,6 @@ def has_switches(scene: Scene) -> bool:
     return any(word in getattr(part, "text", str(part)) for part in texts for word in words)
 
 
-def _frictions(scene: Scene) -> tuple[Friction, ...]:
-    guided = {guide.coordinate for guide in scene.guides}
-    found = (part for part in scene.contributions if isinstance(part, Friction))
-    return tuple(part for part in found if not _names(part) <= guided)
-
-
-def _names(part: Friction) -> set[str]:
-    return {node.name for node in walk(part.coordinate) if isinstance(node, Name)}
-
-
 class _Assembly:
     """The equations of a scene with its signs and flags as parameters."""
 
@@ -131,7 +121,7 @@ class _Assembly:
         self.scene = scene
         self.plain = equations(scene)
         symbols = self.plain.symbols
-        self.frictions = _frictions(scene)
+        self.frictions = frictions_of(scene)
         self.contacts = tuple(i for i, event in enumerate(scene.events) if event.bounces)
         self.ending = tuple(i for i, event in enumerate(scene.events) if not event.bounces)
         self.slips = tuple(self._slip(part, symbols) for part in self.frictions)

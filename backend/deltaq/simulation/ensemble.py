@@ -25,9 +25,10 @@ from .method import Series
 from .outcome import OUT_OF_REACH, Number, Outcome, outcome_of
 from .pieces import Pieces
 from .problem import Floats, Problem
+from .reach import PART, is_far, is_steady
 from .refinement import APART, FINEST_OF_SERIES, BySeries
 from .rounding import short
-from .run import LONGER, PART, REACH, Steps
+from .run import Steps
 from .series.engine import code_of_neighbours, code_of_steps, jet_of_model, lanes_of_host
 
 BLOCK = 64  # motions between which it is looked for others that may go on
@@ -165,16 +166,15 @@ def _run(
 
 
 def _within_reach(ensemble: Ensemble, times: Floats, steps: Steps, flag: Flag, tell: Callable[[int], None]) -> Members:
-    """All motions; those that a part of the steps brings nowhere are given up as `run` does, OUT_OF_REACH."""
+    """All motions; those that no number of steps would bring to the end are OUT_OF_REACH, as single ones (`reach`)."""
     part = ensemble.problem.step_limit // PART
     runs = in_lanes(ensemble.limited(part), times, steps, flag, tell, near=NEAR)
-    far = np.flatnonzero(runs.outcomes == STEP_LIMIT)
-    if not len(far):
-        return runs
-    half = in_lanes(ensemble.chosen(far).limited(part // 2), times[[0, -1]], steps, flag)
-    gone = runs.reached[far]
-    is_lost = (gone > 0.0) & (PART * gone < REACH * times[-1]) & (gone <= LONGER * half.reached)
-    runs.outcomes[far[is_lost]], left = OUT_OF_REACH, far[~is_lost]
+    limited = runs.outcomes == STEP_LIMIT
+    far = np.flatnonzero(limited & is_far(runs.reached, float(times[-1])))
+    if len(far):
+        half = in_lanes(ensemble.chosen(far).limited(part // 2), times[[0, -1]], steps, flag)
+        runs.outcomes[far[is_steady(runs.reached[far], half.reached)]] = OUT_OF_REACH
+    left = np.flatnonzero(limited & (runs.outcomes == STEP_LIMIT))
     if len(left):
         again = in_lanes(ensemble.chosen(left), times, steps, flag, near=NEAR)
         for name in ("samples", "errors", "outcomes", "steps", "filled", "reached"):

@@ -18,6 +18,7 @@ from .method import Method, Series
 from .outcome import OUT_OF_REACH
 from .pieces import Pieces
 from .problem import Floats, Problem
+from .reach import PART, is_far, is_steady
 from .reactions import reactions_at
 from .series.engine import jet_of_model
 from .stability import real_stability
@@ -25,9 +26,6 @@ from .transitions import Transition
 
 APART = 1e-6  # of the distance between two samples; the last one before an event is that far from it at least
 
-PART = 16  # of the steps that are allowed: after so large a part it is looked whether the end is within reach
-REACH = 0.1  # of the span: motions that would not come so far are given up
-LONGER = 2.1  # times the time of half of the steps: more than twice, by more than chance, and steps become longer
 SHORT = 100_000  # right-hand sides; the time for so many is about that of compiling thoroughly
 
 
@@ -145,10 +143,7 @@ def run(problem: Problem, method: Method, times: Floats, cancelled: Flag, steps:
 
 
 def _limited(problem: Problem, method: Method, times: Floats, cancelled: Flag, steps: Steps) -> Run:
-    """A run of a part of the steps; OUT_OF_REACH if even all that the problem allows would bring it nowhere.
-
-    That is, where steps do not become longer, as half of them tell: a motion that slows down may yet come to the end.
-    """
+    """A run of a part of the steps; OUT_OF_REACH if all that are allowed would bring it nowhere (`reach`)."""
     part, span = problem.step_limit // PART, float(times[-1] - times[0])
 
     def once(most: int) -> Run:
@@ -156,11 +151,10 @@ def _limited(problem: Problem, method: Method, times: Floats, cancelled: Flag, s
 
     found = once(part)
     gone = float(found.result.reached - times[0])
-    if found.result.outcome != STEP_LIMIT or not 0.0 < PART * gone < REACH * span:
+    if found.result.outcome != STEP_LIMIT or not is_far(gone, span):
         return found
-    half = float(once(part // 2).result.reached - times[0])
-    is_steady = gone <= LONGER * half
-    return replace(found, result=found.result._replace(outcome=OUT_OF_REACH)) if is_steady else found
+    is_lost = is_steady(gone, float(once(part // 2).result.reached - times[0]))
+    return replace(found, result=found.result._replace(outcome=OUT_OF_REACH)) if is_lost else found
 
 
 def _run(problem: Problem, method: Method, times: Floats, cancelled: Flag, steps: Steps, *, is_long: bool) -> Run:

@@ -13,6 +13,7 @@ import numpy as np
 
 from .. import errors
 from ..mechanics.event import Event
+from ..mechanics.jumps import jumps
 from ..mechanics.library import load_scene
 from ..mechanics.requests import inside
 from ..mechanics.scene import Scene
@@ -95,9 +96,10 @@ def _simulated(request: Request, choice: Choice, problem: Problem, compile_time:
 
 def require_one_mode(scene: Scene) -> None:
     """Raises RequestError for a release where motions jump or stick: q̈ there is not that of one set of equations."""
-    modes = modes_of(scene)
-    if modes and modes.rows:
-        raise errors.RequestError(errors.Problem("release-with-jumps", "/release"))
+    impacts = errors.Problem("release-with-impacts", "/release")
+    refused = tuple(jumps(scene, impacts, errors.Problem("release-with-friction", "/release")))
+    if refused:
+        raise errors.RequestError(*refused)
 
 
 def require_no_event(scene: Scene, problem: Problem) -> None:

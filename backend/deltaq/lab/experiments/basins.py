@@ -23,6 +23,7 @@ from ..charts.basins import charts
 from ..experiment import Experiment
 from ..period import period
 from ..report import Document, Report, rounded, significant
+from ..sliding import require_no_sliding
 from ..subject import Subject, bounded, free_subject_of
 from ..uncertain_boundary import CONFIDENCE, DISTANCES, boundary_of, neighbours, uncertain, wilson
 
@@ -72,6 +73,7 @@ UNKNOWN = -3
 def run(request: BasinsRequest) -> Iterator[Report]:
     """The grid, rough first; then the neighbours of some starts."""
     subject = free_subject_of(request)
+    require_no_sliding(subject.problem)
     chart, stroboscope = _map(request, subject), _stroboscope(request, subject)
     _require_time(request, stroboscope.problem)
     own, count = subject.problem.state[: 2 * subject.problem.degrees], request.count

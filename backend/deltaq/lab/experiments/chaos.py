@@ -22,6 +22,7 @@ from ..flips import Plane
 from ..lyapunov import CONFIDENCE, Exponent, Judgement, exponent_of, is_enough, judge
 from ..minimal_subject import FreeSubject, minimal_subject_of
 from ..report import Document, Report, rounded, significant
+from ..sliding import require_no_sliding
 
 SAMPLES = 801
 APART = 1e-8  # of the twins, if nobody says
@@ -37,6 +38,7 @@ def run(request: ChaosRequest) -> Iterator[Report]:
     found, apart = minimal_subject_of(request, SAMPLES), request.apart or APART
     subject = found.subject
     problem, total = subject.problem, 40 + 10 * request.map
+    require_no_sliding(problem)
     result = found.described | {"apart": apart, "twins": _twins(problem, apart)}
     yield Report(1, total, result)
     for part, done in _measured(problem):

@@ -24,6 +24,7 @@ from ..minimal_subject import FreeSubject, minimal_subject_of
 from ..orbits import LOST, MEETS, TOGETHER, Orbit, followed, steps_of
 from ..plane import Section, observables_of, section_of
 from ..report import Document, Report, rounded, significant
+from ..sliding import require_no_sliding
 from ..starts import Grid, Starts
 from ..subject import bounded
 
@@ -66,6 +67,7 @@ def run(request: PoincareSectionRequest) -> Iterator[Report]:
 def _asked(request: PoincareSectionRequest, free: FreeSubject, cancelled: np.ndarray) -> _Asked:
     subject = free.subject
     observables, problem = observables_of(request, subject), bounded(subject, MOST_STEPS)
+    require_no_sliding(problem)
     path = path_of(problem, steps_of(problem, is_driven=False), LONGEST_PATH, cancelled)
     section = section_of(request, problem, observables, path)
     grid = Grid(section, path)

@@ -23,6 +23,7 @@ from ..minimal_subject import minimal_subject_of
 from ..monodromy import Axis, Plane, StabilityMap
 from ..period import clocks, period
 from ..report import Document, Report, measured, rounded, significant
+from ..sliding import require_no_sliding
 from ..subject import Subject, parameter_of
 
 COARSEST = 8
@@ -32,6 +33,7 @@ def run(request: StabilityMapRequest) -> Iterator[Report]:
     """The map, rough at first."""
     free, first, second = minimal_subject_of(request), _axis(request.x), _axis(request.y)
     subject = free.subject
+    require_no_sliding(subject.problem)
     if first.parameter == second.parameter:
         told = {"name": first.parameter}
         raise RequestError(Mistake("request-same-parameter", "/y/parameter", parameters=told))
