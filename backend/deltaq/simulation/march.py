@@ -1,29 +1,31 @@
-"""Many motions of one model going their steps side by side, as arrays, with the series of each step at hand.
+"""Many motions of one model going their steps side by side, several steps a round, with the series of each at hand.
 
 The step is that of `taylor` and so is the look at what it really did: a step that is worse than it seemed is taken
-again, shorter. All motions share their parameters. Forces with kinks end a step where the argument of their condition
-changes its sign; pieces of the span bound the steps where the time alone moves the forces.
+again, shorter. Who looks at the steps may refuse one, too; the motion then goes on from its beginning. All motions
+share their parameters. Forces with kinks end a step where the argument of their condition changes its sign; pieces of
+the span bound the steps where the time alone moves the forces.
 """
 
 from __future__ import annotations
 
 import ctypes
 from collections.abc import Sequence
-from dataclasses import dataclass, fields, replace
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ..model.recurrences import nudged
-from .kernels.ensemble import aligned
-from .kernels.motion import FINE, NOT_FINITE, SINGULAR, SMALLEST_PIVOT, STEP_LIMIT, STEP_UNDERFLOW, TOO_LARGE
+from .kernels.ensemble import MARGINS, NEW, NEW_REST, PIVOTS, SIZES, TOLERANCE, UNIT, WANTED, aligned
+from .kernels.motion import FINE, NOT_FINITE, SINGULAR, STEP_LIMIT, STEP_UNDERFLOW, TOO_LARGE
 from .kernels.step import LARGEST_VALUE
 from .kernels.taylor import ALWAYS_UNNOTICED, PLACES, ROOM, SHORTER, UNNOTICED
 from .pieces import Pieces
 from .problem import Floats, Problem
 from .run import Steps
-from .series.engine import LANES, jet_of_model
-from .series.evaluation import evaluated
+from .series import marching as m
+from .series.engine import code_of_steps, jet_of_model
+from .series.marching import LANES, LEAST_PART, Layout, marching
 
 Integers = NDArray[np.int64]
 Truths = NDArray[np.bool_]
@@ -31,8 +33,8 @@ GOES_ON = -1
 HALVINGS = 60
 ROUNDING = 2.0**-53
 BELOW, SHORTER_TWIN = 1e-3, 0.9  # the local tolerance and the bounds of twins' steps over those of the others
-LEAST_PART = 1e-6  # of the step that the series allows, or the span: no shorter one is asked for
 LEAST_STEP = 1e-10  # over the span
+MOST_STEPS = 8  # of a round
 _CALL = ctypes.CFUNCTYPE(None, *[ctypes.c_void_p] * 4)
 
 
@@ -75,268 +77,299 @@ class Polynomials:
 
 
 @dataclass(frozen=True)
-class _Lanes:
-    """Motions side by side where they begin a step; the last axis of all arrays is theirs.
+class Gone:
+    """Steps of a round, shape (steps, lanes): whether each was `taken`, its `size`, its `start`, and what was `wanted`.
 
-    `which` are their numbers. `old` with its `rest` (Kahan's) is the state at the time `now`, `coefficients` the series
-    there, shape (order + 1, components, lanes), in `units` of time; steps up to `least` may be tried, `tried` were.
+    `theta`, the lengths of its parts in units of its series, and `lengths`, in seconds, have that shape, too. At the
+    ends of parts are `rows` (q, q̇, t) and `rates` of (q, q̇), shape (steps, parts, lanes, …). `which` are the numbers of
+    the motions, shape (lanes,), −1 where a lane has none.
     """
 
     which: Integers
-    old: Floats
-    rest: Floats
-    now: Floats
-    least: Floats
-    tried: Integers
-    units: Floats
-    coefficients: Floats
-
-    def chosen(self, kept: Truths) -> _Lanes:
-        """Those that are kept."""
-        return _Lanes(*(np.ascontiguousarray(getattr(self, one.name)[..., kept]) for one in fields(self)))
-
-    def mixed(self, other: _Lanes, which: Truths) -> _Lanes:
-        """The other ones where `which` holds, else these."""
-        pairs = ((getattr(self, one.name), getattr(other, one.name)) for one in fields(self))
-        return _Lanes(*(np.where(which, theirs, mine) for mine, theirs in pairs))
-
-
-@dataclass(frozen=True)
-class _Trial:
-    """A step of all lanes before the verdict on it: sizes, times and states (with rests) at its end, and ẋ there."""
-
-    wanted: Floats
+    taken: Truths
     size: Floats
-    end: Floats
-    is_cut: Truths
-    new: Floats
-    rest: Floats
-    slopes: Floats
+    start: Floats
+    wanted: Floats
+    theta: Floats
+    lengths: Floats
+    rows: Floats
+    rates: Floats
 
 
 class March:
     """Motions from `starts`, shape (motions, 2n), to the problem's t_end; `steps` has the order and the pieces, too.
 
-    With `twins` each goes along once more, behind all others: by much smaller local errors, with steps that are bounded
-    by a little less, and from a start and with constants some units in the last place away.
+    Each step is looked at in so many equal `parts`. With `twins` each motion goes along once more, behind all others:
+    by much smaller local errors, with steps that are bounded by a little less, and from a start and with constants some
+    units in the last place away.
     """
 
-    def __init__(self, problem: Problem, starts: Floats, steps: Steps, *, twins: bool = False) -> None:
+    def __init__(self, problem: Problem, starts: Floats, steps: Steps, parts: int, *, twins: bool = False) -> None:
         is_twin = np.repeat([False, True] if twins else [False], len(starts))
         self.problem, self.steps, self.count = problem, steps, len(is_twin)
         self.end_time, self.degrees, self.order = problem.t_end, problem.degrees, steps.order or 0
         self.jet = jet_of_model(problem.model, is_long=True, lanes=LANES)
         self.outcomes = np.full(self.count, GOES_ON, dtype=np.int64)
-        recurrences = problem.model.recurrences
-        states = np.hstack([starts, np.zeros((len(starts), self.jet.shape.width - 2 * self.degrees))])
-        constants = recurrences.constants(np.array(problem.parameters))
-        self._constants = np.where(is_twin, recurrences.nudged(constants)[:, None], constants[:, None])
-        self._tolerances = steps.tolerance * np.where(is_twin, BELOW, 1.0)
         self._shares = np.where(is_twin, SHORTER_TWIN, 1.0)
-        self._call, self._work = _CALL(self.jet.code.address), aligned(self.jet.work)
-        self._program = np.array([self.order], dtype=np.int64)
         pieces = steps.pieces or Pieces.whole(self.end_time)
         bounds = pieces.bounded(steps.size)
         self._ends, self._bounds = np.array(pieces.ends), np.where(bounds > 0.0, bounds, np.inf)
-        states = np.vstack([states, nudged(states)]) if twins else states
-        self._lanes = self._begun(np.ascontiguousarray(states.T), steps.size)
+        recurrences = problem.model.recurrences
+        self._conditions = len(recurrences.conditions)
+        self._depth = self._most = 1 if self._conditions else MOST_STEPS
+        constants = recurrences.constants(np.array(problem.parameters))
+        self._layout = Layout(self.jet.shape.width, self.degrees, len(constants), self._most, parts)
+        self._call, self._jet = _CALL(marching().address), _CALL(self.jet.code.addresses["jet"])
+        self._steps = code_of_steps(self.jet.shape)  # kept while it runs
+        self._measure, self._work = _CALL(self._steps.addresses["measure"]), aligned(self.jet.work)
         self._reached = np.zeros(self.count)
-        self._last = self._lanes
-        self._trial: _Trial | None = None
+        constants = np.where(is_twin, recurrences.nudged(constants)[:, None], constants[:, None])
+        states = np.hstack([starts, np.zeros((len(starts), self._layout.width - 2 * self.degrees))])
+        states = np.vstack([states, nudged(states)]) if twins else states
+        tolerances = steps.tolerance * np.where(is_twin, BELOW, 1.0)
+        self._take_in(np.arange(self.count), self._first_rows(states, constants, tolerances))
+        self._begin(steps.size)
+
+    def _first_rows(self, states: Floats, constants: Floats, tolerances: Floats) -> Floats:
+        """What stands in the rows at first, shape (rows, motions); the states have shape (motions, width)."""
+        layout, size, tolerance = self._layout, self.steps.size, self.steps.tolerance
+        rows = np.zeros((layout.total, self.count))
+        rows[layout.states + NEW * layout.width :][: layout.width] = states.T
+        rows[layout.width + 2 :][: len(constants)] = constants
+        rows[layout.told + TOLERANCE] = tolerances
+        plans = {m.LEAST: np.inf, m.STATUS: m.RESTS, m.CAP: size, m.CUT: np.inf, m.SMALLEST: LEAST_STEP * self.end_time}
+        plans |= {m.ALLOWED: max(UNNOTICED * tolerance, ALWAYS_UNNOTICED)}
+        for row, value in plans.items():
+            rows[layout.plans + row] = value
+        return rows
 
     @property
     def goes_on(self) -> bool:
         """Whether any motion does."""
         return bool((self.outcomes == GOES_ON).any())
 
-    @property
-    def which(self) -> Integers:
-        """The numbers of the motions that go on, in the order of the lanes."""
-        return self._lanes.which
-
     def reached(self) -> Floats:
         """The time that each motion has come to, shape (motions,)."""
-        self._reached[self._lanes.which] = self._lanes.now
+        has = self._which >= 0
+        self._reached[self._which[has]] = self._plan(m.NOW).reshape(-1)[has]
         return self._reached.copy()
 
     def rows(self) -> tuple[Floats, Floats]:
-        """Rows (q, q̇, t) and the time derivatives of (q, q̇) where the lanes are: shape (lanes, …)."""
-        n, lanes = 2 * self.degrees, self._lanes
-        return np.vstack([lanes.old[:n], lanes.now]).T, (lanes.coefficients[1, :n] / lanes.units).T
-
-    def end(self, which: Truths) -> None:
-        """The motions of these numbers have come to their end."""
-        self.outcomes[which & (self.outcomes == GOES_ON)] = FINE
+        """Rows (q, q̇, t) and the time derivatives of (q, q̇) where all motions begin: shape (motions, …)."""
+        n, layout = 2 * self.degrees, self._layout
+        rows = np.concatenate([self._states(NEW)[:, :n], self._rows[:, layout.plans + m.NOW, None]], axis=1)
+        rates = self._series[:, 0, 1, :n] / self._rows[:, :1]
+        each = (found.transpose(0, 2, 1).reshape(-1, found.shape[1])[: self.count] for found in (rows, rates))
+        return next(each), next(each)
 
     def end_all(self, outcome: int) -> None:
         """No motion goes on."""
         self.outcomes[self.outcomes == GOES_ON] = outcome
 
-    def step(self, parts: int) -> tuple[Floats, Floats, Floats, Floats]:
-        """A step of all that go on is tried.
-
-        Returns, at the ends of so many parts of it: places θ, shape (parts, lanes), rows (q, q̇, t) and time derivatives
-        of (q, q̇), shape (parts, lanes, …); and the lengths of the parts, shape (lanes,).
-        """
+    def go(self) -> Gone:
+        """Some steps of all that go on."""
         self._drop()
-        lanes, n = self._lanes, 2 * self.degrees
-        wanted = np.minimum(self._wanted(), self.steps.size)
-        size, end = self._fitted(np.minimum(wanted, lanes.least))
-        size, is_cut = self._cut(size)
-        shares = np.arange(1, parts + 1)[:, None] / parts
-        theta = (size / lanes.units) * shares
-        values, slopes = evaluated(lanes.coefficients[:, : self.jet.shape.width], theta)
-        rates = slopes[:, :n] / lanes.units
-        change = values[-1] + lanes.rest
-        new = lanes.old + change
-        self._trial = _Trial(
-            wanted,
-            size,
-            np.where(is_cut, lanes.now + size, end),
-            is_cut,
-            new,
-            change - (new - lanes.old),
-            rates[-1],
-        )
-        rows = np.empty((parts, n + 1, len(size)))
-        rows[:, :n] = lanes.old[:n] + (values[:, :n] + lanes.rest[:n])
-        rows[:, n] = lanes.now + size * shares
-        return theta, rows.transpose(0, 2, 1), rates.transpose(0, 2, 1), size / parts
+        self._enter_pieces()
+        if self._conditions:
+            self._cut()
+        layout = self._layout
+        records = self._rows[:, layout.records :].reshape(-1, self._most, layout.record, LANES)
+        records[:, :, m.TAKEN] = 0.0
+        self._program[:, m.STEPS] = self._depth
+        to, of, work, program = (each.ctypes.data for each in (self._series, self._rows, self._work, self._program))
+        strides = [each.strides[0] for each in (self._series, self._rows, self._program)]
+        for block in range(len(self._rows)):
+            self._call(to + block * strides[0], of + block * strides[1], work, program + block * strides[2])
+        done = int(self._program[:, m.SLOT].max())
+        self._records = records[:, :done].transpose(1, 2, 0, 3).reshape(done, layout.record, -1)
+        return self._told(self._records)
 
-    def accept(self, is_unseen: Truths) -> Truths:
-        """Whether the step tried is taken, by lane; where it was bad, or `is_unseen` and not too short, it is not."""
-        trial, lanes = self._trial, self._lanes
-        if trial is None:
-            raise LookupError("a step is tried before it is accepted")
-        units = _unit_near(trial.size, lanes.units)
-        following = self._expanded(lanes.which, trial.new, trial.end, units)
-        outcome = self._outcome(following, trial.new)
-        refused = self._is_bad(trial, following, units, outcome)
-        refused |= is_unseen & (trial.size > LEAST_PART * trial.wanted)
-        taken = ~refused & (outcome == FINE)
-        ended = ~refused & (outcome != FINE)
-        least, count = np.full(len(taken), np.inf), lanes.tried + 1
-        following_lanes = _Lanes(lanes.which, trial.new, trial.rest, trial.end, least, count, units, following)
-        if not taken.all():
-            stays = replace(lanes, least=np.where(refused, SHORTER * trial.size, lanes.least), tried=count)
-            following_lanes = stays.mixed(following_lanes, taken)
-        self._last, self._lanes, self._trial = lanes, following_lanes, None
-        # where steps become so short the motion has a singularity, and never comes to the end of the span
-        smallest = np.where(refused, np.minimum(trial.wanted, SHORTER * trial.size), trial.wanted)
-        is_stuck = (smallest < LEAST_STEP * self.end_time) | (lanes.now + smallest <= lanes.now)
-        ended |= is_stuck
-        if ended.any():
-            outcome[is_stuck] = STEP_UNDERFLOW
-            self.outcomes[lanes.which[ended]] = outcome[ended]
-        if count.max() >= self.problem.step_limit:
-            self.outcomes[lanes.which[~ended & (count >= self.problem.step_limit)]] = STEP_LIMIT
-        self.outcomes[lanes.which[taken & (trial.end >= self.end_time)]] = FINE
+    def _told(self, found: Floats) -> Gone:
+        """What the records of steps say, shape (steps, record, lanes)."""
+        layout, n = self._layout, 2 * self.degrees
+        seen = found[:, m.RECORDED + 2 * layout.width :]
+        seen = seen.reshape(len(found), layout.parts, 2 * n + 1, -1).transpose(0, 1, 3, 2)
+        taken = found[:, m.TAKEN] > 0.0
+        size, units = (np.where(taken, found[:, row], 1.0) for row in (m.SIZE, m.UNITS))  # else some round before
+        lengths = size / layout.parts
+        return Gone(
+            self._which,
+            taken,
+            size,
+            found[:, m.STARTED],
+            np.minimum(found[:, m.WISHED], self.steps.size),
+            lengths / units,
+            lengths,
+            seen[..., : n + 1],
+            seen[..., n + 1 :],
+        )
+
+    def settle(self, gone: Gone, is_unseen: Truths) -> Truths:
+        """Which steps are taken: up to the first that `is_unseen`, shape (steps, lanes), unless it is very short.
+
+        From there the motion goes on in shorter ones. What has come to its end is told apart.
+        """
+        refused = gone.taken & is_unseen & (gone.size > LEAST_PART * gone.wanted)
+        if refused.any():
+            lanes = np.flatnonzero(refused.any(axis=0))
+            steps = np.argmax(refused[:, lanes], axis=0)
+            self._go_back(gone, steps, lanes)
+            taken = gone.taken & ~np.logical_or.accumulate(refused, axis=0)
+            self._depth = max(1, self._depth // 2)
+        else:
+            taken = gone.taken
+            self._depth = min(self._most, 2 * self._depth)
+        self._conclude()
         return np.asarray(taken)
 
-    def polynomials(self, lanes: Integers) -> Polynomials:
-        """The series of the step looked at last, by place among the lanes that took it."""
-        last, width = self._last, self.jet.shape.width
-        coefficients = last.coefficients[:, :width, lanes].transpose(2, 0, 1)
-        old, rest = last.old[:, lanes].T, last.rest[:, lanes].T
-        return Polynomials(coefficients, old, rest, last.now[lanes], last.units[lanes], self.degrees)
+    def stop_behind(self, steps: Integers, lanes: Integers) -> None:
+        """The motions in these lanes end where these steps did."""
+        self._plan(m.NOW)[lanes // LANES, lanes % LANES] = self._records[steps, m.ENDS, lanes]
+        self._plan(m.STATUS)[lanes // LANES, lanes % LANES] = m.ENDED
+        self.outcomes[self._which[lanes]] = FINE
+
+    def polynomials(self, steps: Integers, lanes: Integers) -> Polynomials:
+        """The series of steps of the last round, each in its lane."""
+        width, found = self._layout.width, self._records
+        coefficients = self._series[lanes // LANES, steps, :, :width, lanes % LANES]
+        old, rest = (found[steps, m.RECORDED + i * width : m.RECORDED + (i + 1) * width, lanes] for i in (0, 1))
+        return Polynomials(
+            coefficients, old, rest, found[steps, m.STARTED, lanes], found[steps, m.UNITS, lanes], self.degrees
+        )
+
+    def _plan(self, row: int) -> Floats:
+        """A row of plans, shape (blocks, LANES); what is written there is written."""
+        return self._rows[:, self._layout.plans + row]
+
+    def _states(self, row: int) -> Floats:
+        """States, shape (blocks, width, LANES)."""
+        first = self._layout.states + row * self._layout.width
+        return self._rows[:, first : first + self._layout.width]
+
+    def _take_in(self, which: Integers, rows: Floats) -> None:
+        """Motions of these numbers, with their rows, shape (rows, motions), in as many blocks as they need."""
+        layout, count = self._layout, len(which)
+        blocks = -(-count // LANES)
+        places = np.minimum(np.arange(blocks * LANES), count - 1)  # lanes that are left over have a motion's numbers
+        self._which = np.where(np.arange(blocks * LANES) < count, which[places], -1)
+        self._rows = aligned(blocks, layout.total, LANES)
+        self._rows[:] = rows[:, places].reshape(layout.total, blocks, LANES).transpose(1, 0, 2)
+        self._plan(m.STATUS)[self._which.reshape(blocks, LANES) < 0] = m.ENDED
+        # zeros, for the last coefficients of conditions and all but the first of pivots are not written
+        self._series = aligned(blocks, self._most + 1, self.order + 1, self.jet.shape.components, LANES)
+        addresses = {**self.jet.code.addresses, **self._steps.addresses}
+        told = {m.ORDER: self.order, m.PARTS: layout.parts, m.WIDTH: layout.width, m.RATED: 2 * self.degrees}
+        told |= {m.COMPONENTS: self.jet.shape.components, m.AT_STATES: layout.states, m.AT_TOLD: layout.told}
+        told |= {m.AT_PLANS: layout.plans, m.AT_RECORDS: layout.records, m.RECORD: layout.record}
+        told |= {m.JET: addresses["jet"], m.ADVANCE: addresses["advance"], m.MEASURE: addresses["measure"]}
+        self._program = np.zeros((blocks, m.PROGRAM), dtype=np.int64)
+        for place, value in told.items():
+            self._program[:, place] = value
 
     def _drop(self) -> None:
-        """Lanes whose motion has ended are left out."""
-        goes_on = self.outcomes[self._lanes.which] == GOES_ON
-        if not goes_on.all():
-            self.reached()
-            self._lanes = self._lanes.chosen(goes_on)
+        """Lanes whose motion has ended rest; they are left out when so many have that a block less is enough."""
+        has = self._which >= 0
+        goes_on = has & (self.outcomes[np.maximum(self._which, 0)] == GOES_ON)
+        if goes_on.all():
+            return
+        self._plan(m.STATUS)[~goes_on.reshape(-1, LANES)] = m.ENDED
+        left = np.flatnonzero(goes_on)
+        if -(-len(left) // LANES) == len(self._rows):
+            return
+        self.reached()
+        rows = self._rows.transpose(1, 0, 2).reshape(self._layout.total, -1)[:, left]
+        series = self._series[left // LANES, self._program[left // LANES, m.SLOT], ..., left % LANES]
+        self._take_in(self._which[left], rows)
+        places = np.minimum(np.arange(self._which.size), len(left) - 1)
+        self._series[:, 0] = series[places].reshape(-1, LANES, *series.shape[1:]).transpose(0, 2, 3, 1)
 
-    def _begun(self, states: Floats, near: float) -> _Lanes:
-        """All motions where they begin; their unit of time is shortened until the coefficients are in range."""
-        count = states.shape[1]
-        numbers, units, now = np.arange(count), np.full(count, 2.0 ** np.floor(np.log2(near))), np.zeros(count)
+    def _begin(self, near: float) -> None:
+        """The first series of all; their unit of time is shortened until the coefficients are in range."""
+        self._rows[:, 0] = 2.0 ** np.floor(np.log2(near))
+        outcome = np.empty(0, dtype=np.int64)
         for _ in range(4):
-            found = self._expanded(numbers, states, now, units)
-            outcome = self._outcome(found, states)
+            self._expand()
+            outcome = self._outcome()
             too_large = (outcome == TOO_LARGE) | (outcome == NOT_FINITE)
             if not too_large.any():
                 break
-            units = np.where(too_large, units * 2.0**-24, units)
+            self._rows[:, 0][too_large] *= 2.0**-24
+        outcome = outcome.reshape(-1)[: self.count]
         self.outcomes[outcome != FINE] = outcome[outcome != FINE]
-        least = np.full(count, np.inf)
-        return _Lanes(numbers, states, np.zeros_like(states), now, least, np.zeros_like(numbers), units, found)
 
-    def _expanded(self, which: Integers, states: Floats, times: Floats, units: Floats) -> Floats:
-        """The coefficients at these states, shape (order + 1, components, lanes)."""
-        count, width, lanes = len(times), self.jet.shape.width, self.jet.shape.lanes
-        blocks = -(-count // lanes)
-        rows = np.empty((width + 2 + len(self._constants), blocks * lanes))
-        rows[0, :count], rows[1 : width + 1, :count], rows[width + 1, :count] = units, states, times
-        rows[width + 2 :, :count] = self._constants[:, which]
-        rows[:, count:] = rows[:, count - 1 : count]  # lanes that are left over go along
-        given = aligned(blocks, len(rows), lanes)
-        given[:] = rows.reshape(-1, blocks, lanes).transpose(1, 0, 2)
-        # zeros, for the last coefficients of conditions and all but the first of pivots are not written
-        out = aligned(blocks, self.order + 1, self.jet.shape.components, lanes)
-        to, of, work, program = (each.ctypes.data for each in (out, given, self._work, self._program))
-        for block in range(blocks):
-            self._call(to + block * out.strides[0], of + block * given.strides[0], work, program)
-        if blocks == 1:
-            return out[0] if count == lanes else out[0, ..., :count]
-        return out.transpose(1, 2, 0, 3).reshape(*out.shape[1:3], -1)[..., :count]
+    def _expand(self) -> None:
+        """The series where the lanes are."""
+        layout = self._layout
+        self._rows[:, 1 : 1 + layout.width] = self._states(NEW)
+        self._rows[:, layout.told + UNIT] = self._rows[:, 0]
+        for series, rows, program in zip(self._series, self._rows, self._program, strict=True):
+            to, of, work, orders = (each.ctypes.data for each in (series, rows, self._work, program))
+            self._jet(to, of, work, orders)
+            states, told = (rows[place:].ctypes.data for place in (layout.states, layout.told))
+            self._measure(to, states, told, orders)
 
-    def _outcome(self, found: Floats, states: Floats) -> Integers:
-        """Whether series can be used, by lane."""
-        shape, n = self.jet.shape, 2 * self.degrees
-        first = shape.first_pivot
-        pivots, diagonals = found[0, first::2], found[0, first + 1 :: 2]
-        total = (np.abs(found[1, :n]) + np.abs(found[self.order, :n]) + np.abs(states[:n])).sum(axis=0)
-        if (total <= LARGEST_VALUE).all() and (pivots > SMALLEST_PIVOT * diagonals).all():
-            return np.full(len(total), FINE)
-        outcome = np.where(np.isnan(total), NOT_FINITE, np.where(total <= LARGEST_VALUE, FINE, TOO_LARGE))
-        singular = ~(pivots > SMALLEST_PIVOT * diagonals)
-        lost = np.isnan(pivots).any(axis=0)
-        return np.asarray(np.where(lost, NOT_FINITE, np.where(singular.any(axis=0), SINGULAR, outcome)))
+    def _outcome(self) -> Integers:
+        """Whether the series where the lanes are can be used, shape (blocks, LANES)."""
+        sizes, margins, pivots = (self._rows[:, self._layout.told + row] for row in (SIZES, MARGINS, PIVOTS))
+        outcome = np.where(np.isnan(sizes), NOT_FINITE, np.where(sizes <= LARGEST_VALUE, FINE, TOO_LARGE))
+        outcome = np.where(margins > 0.0, outcome, SINGULAR)
+        return np.asarray(np.where(np.isnan(pivots), NOT_FINITE, outcome))
 
-    def _wanted(self) -> Floats:
-        """The step by which the last two coefficients shrink to the tolerance, by lane."""
-        n, c, order = 2 * self.degrees, self._lanes.coefficients, self.order
-        scale = np.maximum(1.0, np.abs(self._lanes.old[:n])) * self._tolerances[self._lanes.which]
-        orders = np.array([[order - 1.0], [order]])
-        with np.errstate(divide="ignore"):
-            steepest = (np.log((np.abs(c[order - 1 : order + 1, :n]) / scale).max(axis=1)) / orders).max(axis=0)
-        return np.asarray(self._lanes.units * np.exp(-0.7 / (order - 1.0) - steepest))
+    def _conclude(self) -> None:
+        """Motions that cannot go on, or have come to the end, are told."""
+        status, now, has = self._plan(m.STATUS), self._plan(m.NOW), self._which.reshape(-1, LANES) >= 0
+        limit = self.problem.step_limit
+        tried = self._plan(m.TRIED) >= limit
+        if not ((status != m.GOES) | tried).any():
+            return
+        outcome = np.where(tried, STEP_LIMIT, GOES_ON)
+        outcome = np.where(status == m.FAILED, self._outcome(), outcome)
+        outcome = np.where(status == m.STUCK, STEP_UNDERFLOW, outcome)
+        outcome = np.where((now >= self.end_time) & (status != m.FAILED), FINE, outcome)
+        ended = has & (outcome != GOES_ON) & (status != m.ENDED)
+        which = self._which.reshape(-1, LANES)[ended]
+        going = self.outcomes[which] == GOES_ON
+        self.outcomes[which[going]] = outcome[ended][going]
 
-    def _fitted(self, wanted: Floats) -> tuple[Floats, Floats]:
-        """Steps within the pieces of the span, and the times that they end at."""
-        now = self._lanes.now
-        piece = np.minimum(np.searchsorted(self._ends, now, side="right"), len(self._ends) - 1)
-        ends = self._ends[piece]
-        size, left = np.minimum(wanted, self._shares[self._lanes.which] * self._bounds[piece]), ends - now
-        is_last = size * (1.0 + 1e-9) >= left
-        return np.where(is_last, left, size), np.where(is_last, ends, now + size)
+    def _go_back(self, gone: Gone, steps: Integers, lanes: Integers) -> None:
+        """These lanes are again where these steps began, and try shorter ones."""
+        block, lane, width, found = lanes // LANES, lanes % LANES, self._layout.width, self._records
+        for place, row in ((0, NEW), (1, NEW_REST)):
+            first = m.RECORDED + place * width
+            self._states(row)[block, :, lane] = found[steps, first : first + width, lanes]
+        self._rows[block, 0, lane] = found[steps, m.UNITS, lanes]
+        self._rows[block, self._layout.told + WANTED, lane] = found[steps, m.WISHED, lanes]
+        self._series[block, self._program[block, m.SLOT], ..., lane] = self._series[block, steps, ..., lane]
+        now, shorter, wanted = gone.start[steps, lanes], SHORTER * gone.size[steps, lanes], gone.wanted[steps, lanes]
+        self._plan(m.NOW)[block, lane], self._plan(m.LEAST)[block, lane] = now, shorter
+        following = np.minimum(wanted, shorter)
+        is_stuck = (following < LEAST_STEP * self.end_time) | (now + following <= now)
+        self._plan(m.STATUS)[block, lane] = np.where(is_stuck, m.STUCK, m.GOES)
 
-    def _cut(self, size: Floats) -> tuple[Floats, Truths]:
-        """Steps up to just behind where the argument of a condition first changes its sign."""
-        if not self.jet.shape.conditions:
-            return size, np.zeros(len(size), dtype=bool)
-        found, lanes = size.copy(), self._lanes
-        for row in range(self.jet.shape.width, self.jet.shape.first_pivot):
-            for lane in range(len(size)):
-                series, unit = lanes.coefficients[:, row, lane], lanes.units[lane]
-                at = _first_change(series[::-1], found[lane] / unit) * unit
-                if at < found[lane]:
-                    found[lane] = min(found[lane], at + ROOM * ROUNDING * max(lanes.now[lane], size[lane]))
-        return found, found < size
+    def _enter_pieces(self) -> None:
+        """Lanes that have come to the end of a piece of the span, or begin, go on with the next one."""
+        status = self._plan(m.STATUS)
+        if not (status == m.RESTS).any():
+            return
+        piece = np.minimum(np.searchsorted(self._ends, self._plan(m.NOW), side="right"), len(self._ends) - 1)
+        shares = self._shares[np.maximum(self._which, 0)].reshape(-1, LANES)
+        self._plan(m.END)[:], self._plan(m.BOUND)[:] = self._ends[piece], shares * self._bounds[piece]
+        status[status == m.RESTS] = m.GOES
 
-    def _is_bad(self, trial: _Trial, following: Floats, units: Floats, outcome: Integers) -> Truths:
-        """Whether a step was worse than it seemed, and a shorter one may be better."""
-        n, allowed = 2 * self.degrees, max(UNNOTICED * self.steps.tolerance, ALWAYS_UNNOTICED)
-        apart = trial.size * np.abs(trial.slopes - following[1, :n] / units) / np.maximum(1.0, np.abs(trial.new[:n]))
-        worse = (apart.max(axis=0) > allowed) & ~trial.is_cut
-        return np.asarray((worse | (outcome != FINE)) & (trial.size > LEAST_PART * trial.wanted))
-
-
-def _unit_near(size: Floats, units: Floats) -> Floats:
-    """A power of two near each step, the one it has where that is near enough."""
-    near = (0.25 * units <= size) & (size <= 4.0 * units)
-    return np.asarray(np.where(near, units, 2.0 ** np.floor(np.log2(size))))
+    def _cut(self) -> None:
+        """Steps go up to just behind where the argument of a condition first changes its sign."""
+        width = self._layout.width
+        plans = [self._plan(row).reshape(-1) for row in (m.NOW, m.LEAST, m.BOUND, m.CAP, m.END, m.STATUS)]
+        wanted, units = self._rows[:, self._layout.told + WANTED].reshape(-1), self._rows[:, 0].reshape(-1)
+        for index, (now, least, bound, cap, end, status) in enumerate(zip(*plans, strict=True)):
+            size = found = min(wanted[index], cap, least, bound, end - now)
+            block, lane = divmod(index, LANES)
+            slot = self._series[block, self._program[block, m.SLOT], :, :, lane]
+            for row in range(width, width + self._conditions if status == m.GOES else width):
+                at = _first_change(slot[::-1, row], found / units[index]) * units[index]
+                if at < found:
+                    found = min(found, at + ROOM * ROUNDING * max(now, size))
+            self._plan(m.CUT)[block, lane] = found if found < size else np.inf
 
 
 def _first_change(series: Floats, end: float) -> float:

@@ -1,9 +1,8 @@
 """Where many motions of one scene cross a plane, by the Taylor series of their steps.
 
-All motions go their steps side by side, each its own, as arrays; the series are those of ensembles, so that no kernel
-has to be compiled. At the ends of some parts of each step it is looked at the plane's function and its derivative by
-time: in a part it changes its sign, or its cubic touches zero and turns back. There its root is sought on the step's
-own polynomial, by Newton's method inside a bracket.
+All motions go some steps side by side, each its own, in one call (`march`). At the ends of some parts of each step it
+is looked at the plane's function and its derivative by time: in a part it changes its sign, or its cubic touches zero
+and turns back. There its root is sought on the step's own polynomial, by Newton's method inside a bracket.
 Sources: M. Hénon, Physica D 5 (1982) 412–414 (sections); Press et al., Numerical Recipes, 3rd ed., §9.4 (bracket).
 """
 
@@ -17,13 +16,13 @@ import numpy as np
 
 from .integration import Flag
 from .kernels.motion import CANCELLED
-from .march import Integers, March, Polynomials, Truths
+from .march import Gone, Integers, March, Polynomials, Truths
 from .problem import Floats, Problem
 from .run import Steps
 
 PARTS = 4  # of a step, at whose ends the plane's function is looked at
 AT_ONCE = 256  # crossings whose roots are sought together
-ROUNDS = 64  # steps of all motions after which what was found is told
+ROUNDS = 8  # of some steps of all motions, after which what was found is told
 MOST_ROOT_STEPS = 60
 NEAR = 0.1  # what the cubic says of a minimum, over the values beside it, for which it is looked at itself
 UNSEEN = 0.1  # how far a cubic may be from the function, over its size in the step
@@ -107,15 +106,14 @@ def follow(
     A motion ends at the problem's t_end, or with so many crossings. A start that lies in the plane is the first.
     With `twins` (`march.March`) each motion has one, whose number is as much larger as there are motions.
     """
-    march = March(problem, starts, steps, twins=twins)
-    search = _Search(surface, march)
+    march = March(problem, starts, steps, PARTS, twins=twins)
+    search = _Search(surface, march, most)
     rounds = 0
     while march.goes_on:
         search.look()
         rounds += 1
         if cancelled[0] != 0:
             march.end_all(CANCELLED)
-        march.end(search.crossed >= most)
         if rounds % ROUNDS == 0 or search.pending >= AT_ONCE:
             yield search.found(), search.standing()
     yield search.found(), search.standing()
@@ -136,23 +134,48 @@ class Brackets:
     right: Floats
     shift: Floats
 
+    def chosen(self, which: Truths) -> Brackets:
+        """Some of them."""
+        rest = (each[which] for each in (self.a, self.b, self.left, self.right, self.shift))
+        return Brackets(self.motions[which], self.series.chosen(which), *rest)
+
 
 @dataclass(frozen=True)
 class _Looked:
-    """A step of all lanes as the plane sees it: at the ends of its parts, the beginning with them."""
+    """Steps of all lanes as the plane sees them, at the ends of their parts, with their beginning.
 
-    which: Integers
-    theta: Floats
+    `values` and `slopes` of h have shape (steps, parts + 1, lanes).
+    """
+
+    gone: Gone
+    taken: Truths
     values: Floats
     slopes: Floats
-    lengths: Floats
+
+    def ends(self, step: Integers, part: Integers, lane: Integers) -> tuple[Floats, Floats]:
+        """Places θ at which parts begin and end."""
+        theta = self.gone.theta[step, lane]
+        return part * theta, (part + 1) * theta
+
+
+@dataclass(frozen=True)
+class _Places:
+    """Brackets with the step and the lane that each lies in, shape (parts,)."""
+
+    step: Integers
+    lane: Integers
+    brackets: Brackets
+
+    def chosen(self, which: Truths) -> _Places:
+        """Some of them."""
+        return _Places(self.step[which], self.lane[which], self.brackets.chosen(which))
 
 
 class _Search:
-    """Looks at each step of all motions and keeps where they cross."""
+    """Looks at each step of all motions and keeps where they cross, up to so many times."""
 
-    def __init__(self, surface: Surface, march: March) -> None:
-        self.surface, self.march, self.pending = surface, march, 0
+    def __init__(self, surface: Surface, march: March, most: int) -> None:
+        self.surface, self.march, self.most, self.pending = surface, march, most, 0
         self.crossed, self._reach = np.zeros(march.count, dtype=np.int64), np.zeros(march.count)
         self._kept: list[Brackets] = []
         rows, rates = march.rows()
@@ -160,71 +183,111 @@ class _Search:
         scale = (np.abs(found[:, 1:-1]) * np.abs(rows[:, :-1])).sum(axis=1)
         value, shift = found[:, 0], surface.shift(found[:, 0])
         is_zero = np.abs(value - shift) <= ZERO * np.maximum(scale, np.abs(value))
-        self._value, self._slope = np.where(is_zero, shift, value), (found[:, 1:-1] * rates).sum(axis=1) + found[:, -1]
-        begun = np.flatnonzero(is_zero & (self._slope * (surface.direction or np.sign(self._slope)) > 0.0))
-        self._begun = Crossings(begun, rows[begun, -1], rows[begun, :-1], self._slope[begun])
+        slope = (found[:, 1:-1] * rates).sum(axis=1) + found[:, -1]
+        self._last = np.array([np.where(is_zero, shift, value), slope])
+        begun = np.flatnonzero(is_zero & (slope * (surface.direction or np.sign(slope)) > 0.0))
+        self._begun = Crossings(begun, rows[begun, -1], rows[begun, :-1], slope[begun])
         self.crossed[begun] = 1
 
     def look(self) -> None:
-        """A step of all motions: those that see the plane well enough are accepted, and searched for crossings."""
-        theta, rows, rates, lengths = self.march.step(PARTS)
-        which = self.march.which
-        values, slopes = self.surface.slopes(rows, rates)
-        values, slopes = np.vstack([self._value[which], values]), np.vstack([self._slope[which], slopes])
-        taken = self.march.accept(self._is_unseen(values, slopes, lengths))
-        done = which[taken]
-        self._reach[done] = np.maximum(self._reach[done], np.abs(values).max(axis=0)[taken])
-        self._value[done], self._slope[done] = values[-1][taken], slopes[-1][taken]
-        self._bracket(_Looked(which, np.vstack([np.zeros(len(which)), theta]), values, slopes, lengths), taken)
+        """Some steps of all motions: those that see the plane well enough are taken, and searched for crossings."""
+        gone = self.march.go()
+        with np.errstate(all="ignore"):  # steps that are not taken may end anywhere
+            found = np.stack(self.surface.slopes(gone.rows, gone.rates))
+        values, slopes = self._with_beginnings(gone, found)
+        taken = self.march.settle(gone, self._is_unseen(values, slopes, gone.lengths))
+        seen = _Looked(gone, taken, values, slopes)
+        places = [each for each in (self._signs(seen), *self._touches(seen)) if len(each.step)]
+        last = self._keep(gone, places)
+        taken = taken & (np.arange(len(taken))[:, None] <= last)
+        has = taken.any(axis=0)
+        largest = np.where(taken, np.abs(values).max(axis=1), 0.0).max(axis=0)[has]
+        which, (lanes,) = gone.which[has], np.nonzero(has)
+        step = len(taken) - 1 - np.argmax(taken[::-1, lanes], axis=0)
+        self._reach[which] = np.maximum(self._reach[which], largest)
+        self._last[:, which] = values[step, -1, lanes], slopes[step, -1, lanes]
+
+    def _with_beginnings(self, gone: Gone, found: Floats) -> Floats:
+        """h and ḣ, shape (2, steps, parts, lanes), with what they were where each step began before them.
+
+        Steps that were not taken have what they began with.
+        """
+        now, all_found = self._last[:, gone.which], np.empty((*found.shape[:2], found.shape[2] + 1, found.shape[3]))
+        for step, taken in enumerate(gone.taken):
+            all_found[:, step] = now[:, None]
+            all_found[:, step, 1:] = np.where(taken, found[:, step], all_found[:, step, 1:])
+            now = all_found[:, step, -1]
+        return all_found
 
     def _is_unseen(self, values: Floats, slopes: Floats, lengths: Floats) -> Truths:
         """Whether h does in a step what its values at the ends of parts do not show: cubics through two miss others."""
-        size = np.abs(values).max(axis=0)
-        middle = 0.5 * (values[:-2:2] + values[2::2]) + 0.25 * lengths * (slopes[:-2:2] - slopes[2::2])
-        is_missed = (np.abs(middle - values[1::2]) > UNSEEN * size).any(axis=0)
+        size, fastest = np.abs(values).max(axis=1), np.abs(slopes).max(axis=1)
+        turned = 0.25 * lengths[:, None] * (slopes[:, :-2:2] - slopes[:, 2::2])
+        middle = 0.5 * (values[:, :-2:2] + values[:, 2::2]) + turned
+        is_missed = (np.abs(middle - values[:, 1::2]) > UNSEEN * size[:, None]).any(axis=1)
         # values that are alike while h moves fast: it has turned back as often between them
-        return np.asarray(
-            is_missed | (lengths * np.abs(slopes).max(axis=0) > STILL * np.ptp(values, axis=0) + ZERO * size)
-        )
+        return np.asarray(is_missed | (lengths * fastest > STILL * np.ptp(values, axis=1) + ZERO * size))
 
-    def _bracket(self, seen: _Looked, taken: Truths) -> None:
-        """Parts in which h changes its sign, or touches zero and turns back."""
-        shift = self.surface.shift(0.5 * (seen.values[:-1] + seen.values[1:]))
-        left, right = seen.values[:-1] - shift, seen.values[1:] - shift
-        part, lane = np.nonzero(self.surface.is_crossed(left, right) & taken)
-        if len(part):
-            ends = seen.theta[part, lane], seen.theta[part + 1, lane]
-            values = (each[part, lane] for each in (left, right, shift))
-            self._keep(seen.which[lane], self.march.polynomials(lane), *ends, *values)
-        turned = (left * right > 0.0) & (left * seen.slopes[:-1] < 0.0) & (right * seen.slopes[1:] > 0.0) & taken
-        if turned.any():
-            part, lane = np.nonzero(turned)
-            self._touch(seen, part, lane, left, right, shift)
+    def _signs(self, seen: _Looked) -> _Places:
+        """Parts in which h changes its sign."""
+        shift = self.surface.shift(0.5 * (seen.values[:, :-1] + seen.values[:, 1:]))
+        left, right = seen.values[:, :-1] - shift, seen.values[:, 1:] - shift
+        at = np.nonzero(self.surface.is_crossed(left, right) & seen.taken[:, None])
+        return self._places(seen, at, *seen.ends(*at), left[at], right[at], shift[at])
 
-    def _keep(self, which: Integers, series: Polynomials, *arrays: Floats) -> None:
-        """Keeps brackets, of the motions of these numbers."""
-        self._kept.append(Brackets(which, series, *arrays))
-        self.pending += len(which)
-        np.add.at(self.crossed, which, 1)
+    def _places(self, seen: _Looked, at: tuple[Integers, ...], *arrays: Floats) -> _Places:
+        """Brackets in parts of steps of lanes, as `at` tells."""
+        step, _, lane = at
+        series = self.march.polynomials(step, lane)
+        return _Places(step, lane, Brackets(seen.gone.which[lane], series, *arrays))
 
-    def _touch(self, seen: _Looked, part: Integers, lane: Integers, left: Floats, right: Floats, shift: Floats) -> None:
-        """Where the cubic's extremum is near zero or behind it, h there decides; both halves may be crossings."""
-        left, right, shift = left[part, lane], right[part, lane], shift[part, lane]
-        falls, rises = seen.slopes[part, lane] * seen.lengths[lane], seen.slopes[part + 1, lane] * seen.lengths[lane]
+    def _touches(self, seen: _Looked) -> list[_Places]:
+        """Parts in which h touches zero and turns back.
+
+        Where the cubic's extremum is near zero or behind it, h there decides; both halves may be crossings.
+        """
+        shift = self.surface.shift(0.5 * (seen.values[:, :-1] + seen.values[:, 1:]))
+        left, right = seen.values[:, :-1] - shift, seen.values[:, 1:] - shift
+        turned = (left * right > 0.0) & (left * seen.slopes[:, :-1] < 0.0) & (right * seen.slopes[:, 1:] > 0.0)
+        step, part, lane = np.nonzero(turned & seen.taken[:, None])
+        if not len(step):
+            return []
+        left, right, shift = (each[step, part, lane] for each in (left, right, shift))
+        length = seen.gone.lengths[step, lane]
+        falls, rises = seen.slopes[step, part, lane] * length, seen.slopes[step, part + 1, lane] * length
         x, extremum = _extremum(left, right, falls, rises)
         near = extremum * np.sign(left) <= NEAR * np.minimum(np.abs(left), np.abs(right))
+        at = step[near], part[near], lane[near]
         if not near.any():
-            return
-        part, lane = part[near], lane[near]
+            return []
         x, left, right, shift = (each[near] for each in (x, left, right, shift))
-        a, b = seen.theta[part, lane], seen.theta[part + 1, lane]
-        series = self.march.polynomials(lane)
+        a, b = seen.ends(*at)
+        series = self.march.polynomials(at[0], at[2])
         middle, value = _lowest(series, self.surface, a, b, a + x * (b - a), np.sign(left))
         value = value - shift
-        for half in ((a, middle, left, value), (middle, b, value, right)):
-            is_in = self.surface.is_crossed(*half[2:])
-            if is_in.any():
-                self._keep(seen.which[lane[is_in]], series.chosen(is_in), *(each[is_in] for each in (*half, shift)))
+        halves = ((a, middle, left, value), (middle, b, value, right))
+        found = (self._places(seen, at, *half, shift).chosen(self.surface.is_crossed(*half[2:])) for half in halves)
+        return list(found)
+
+    def _keep(self, gone: Gone, places: list[_Places]) -> Integers:
+        """Keeps brackets; motions that have crossed often enough end. Returns the last step of each lane."""
+        last = np.full(len(gone.which), len(gone.taken))
+        if not places:
+            return last
+        counts = np.zeros(gone.taken.shape, dtype=np.int64)
+        for each in places:
+            np.add.at(counts, (each.step, each.lane), 1)
+        total = self.crossed[gone.which] + np.cumsum(counts, axis=0)
+        (full,) = np.nonzero((total[-1] >= self.most) & (gone.which >= 0))
+        if len(full):
+            last[full] = np.argmax(total[:, full] >= self.most, axis=0)
+            self.march.stop_behind(last[full], full)
+        for each in places:
+            kept = each.chosen(each.step <= last[each.lane])
+            self._kept.append(kept.brackets)
+            self.pending += len(kept.step)
+            np.add.at(self.crossed, kept.brackets.motions, 1)
+        return last
 
     def found(self) -> Crossings:
         """The crossings since it was last asked, motion by motion in their order."""
@@ -296,10 +359,10 @@ def refined(found: Brackets, surface: Surface) -> Crossings:
 
 def path_of(problem: Problem, steps: Steps, most: int, cancelled: Flag) -> Floats:
     """The ends of the steps of the problem's own motion, `most` at most, as rows (q, q̇, t), shape (steps, 2n + 1)."""
-    march = March(problem, problem.state[None, : 2 * problem.degrees], steps)
+    march = March(problem, problem.state[None, : 2 * problem.degrees], steps, 1)
     rows = [march.rows()[0]]
-    while march.goes_on and len(rows) < most and cancelled[0] == 0:
-        march.step(1)
-        if march.accept(np.zeros(1, dtype=bool))[0]:
-            rows.append(march.rows()[0])
-    return np.concatenate(rows)
+    while march.goes_on and sum(map(len, rows)) < most and cancelled[0] == 0:
+        gone = march.go()
+        taken = march.settle(gone, np.zeros(gone.taken.shape, dtype=bool))[:, 0]
+        rows.append(gone.rows[taken, 0, 0])
+    return np.concatenate(rows)[:most]

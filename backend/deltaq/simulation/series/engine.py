@@ -12,7 +12,6 @@ from .neighbour import begin, carry, compare, look, settle
 from .shape import Shape
 from .stepping import advance, measure
 
-LANES = 8  # motions side by side where few are marched in rounds: the fewer rounds, the better
 SHAPES = 64  # of models whose code for steps is kept
 
 
