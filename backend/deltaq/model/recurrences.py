@@ -115,10 +115,10 @@ class Recurrences:
         with np.errstate(all="ignore"):
             for formula in self.formulas:
                 values.append(formula.value(values, parameters))
-        rest = parameters.shape[1:]
-        return np.array([np.broadcast_to(values[place], rest) for place in self.kept], dtype=np.float64).reshape(
-            -1, *rest
-        )
+        found = np.empty((len(self.kept), *parameters.shape[1:]))
+        for number, place in enumerate(self.kept):
+            found[number] = values[place]
+        return found
 
     def nudged(self, constants: Floats) -> Floats:
         """Constants, shape (…, constants): those that depend on parameters some units in the last place away.

@@ -229,9 +229,18 @@ class MachineCode:
         return next(iter(self.addresses.values()))
 
 
-def compiled(functions: Mapping[str, Code], effort: int, returned: str = "void", given: str = ARGUMENTS) -> MachineCode:
-    """Machine code of functions `returned name(given)`, usually `void name(out, given, work, program)`."""
-    lines = sorted(set[str]().union(*(code.declared for code in functions.values())))
+def compiled(
+    functions: Mapping[str, Code],
+    effort: int,
+    returned: str = "void",
+    given: str = ARGUMENTS,
+    inner: Sequence[str] = (),
+) -> MachineCode:
+    """Machine code of functions `returned name(given)`, usually `void name(out, given, work, program)`.
+
+    Functions that only these call are `inner`, as text.
+    """
+    lines = [*sorted(set[str]().union(*(code.declared for code in functions.values()))), *inner]
     for name, code in functions.items():
         lines += [f"define {returned} @{name}({given}) #0 {{", *code.lines, "}"]
     text = "\n".join([*lines, 'attributes #0 = { nounwind "no-builtins" }', ""])

@@ -3,6 +3,9 @@
 A step's coefficients are found order by order. All sums Σ uⱼ vₖ₋ⱼ of an order k need lower orders only, so that those
 of different operations are computed side by side in the lanes of vectors; their operands stand side by side in memory,
 wherever they are needed. Where several motions run side by side, the lanes are theirs.
+
+Of a sum the two ends, u₁ vₖ₋₁ and uₖ₋₁ v₁, come last, and what was found just before is not read from memory for them:
+the rest of the sum then waits for nothing of the order before, and a processor computes it meanwhile.
 """
 
 from __future__ import annotations
@@ -20,6 +23,7 @@ from .operations import COMPARISONS, Operands, first, kept, later
 from .shape import Shape
 
 TOGETHER = 5  # sums in one loop, whose parts have to stay in registers
+FEW = 12  # sums of one motion whose ends are found one by one
 
 
 class Sums(Protocol):
@@ -36,8 +40,21 @@ class Sums(Protocol):
     def row(self, code: Code, order: str) -> str:
         """The address of an order: all places of its coefficients are constants."""
 
-    def write(self, code: Code, order: str, begin: str) -> dict[Term, str]:
-        """The sums of an order; `begin` is the name of the block in which this is written."""
+    @property
+    def terms(self) -> tuple[Term, ...]:
+        """All sums, each once."""
+
+    def write(self, code: Code, order: str, within: tuple[str, str], begin: str) -> list[str]:
+        """The sums of an order over j in a range; `begin` is the name of the block in which this is written."""
+
+    def ended(self, code: Code, order: str, inner: list[str], /) -> list[str]:
+        """What `write` returned, with both ends: u₁ vₖ₋₁ and then uₖ₋₁ v₁ (k > 2)."""
+
+    def each(self, code: Code, found: list[str], /) -> dict[Term, str]:
+        """Sum by sum what `write` and `ended` returned."""
+
+    def kind(self, code: Code) -> str:
+        """The type of what they return."""
 
 
 @dataclass(frozen=True)
@@ -70,14 +87,45 @@ class OfOperations:
                 found.setdefault(series, []).append(place)
         return found
 
-    def write(self, code: Code, order: str, begin: str) -> dict[Term, str]:
-        vector = Code(self.width, code.lines, code.declared, prefix="w")
-        places = [[(2 * g + side) * MOST_ORDERS for side in (0, 1)] for g in range(self.groups)]
-        found = _loop(vector, order, begin, places)
-        return {
-            term: code.new(f"extractelement {vector.kind} {found[number // self.width]}, i32 {number % self.width}")
-            for number, term in enumerate(self.terms)
-        }
+    @property
+    def are_few(self) -> bool:
+        """Whether their ends cost less one by one than it takes to wait until they stand side by side in memory."""
+        return len(self.terms) <= FEW
+
+    def kind(self, code: Code) -> str:
+        return code.kind if self.are_few else Code(self.width).kind
+
+    def write(self, code: Code, order: str, within: tuple[str, str], begin: str) -> list[str]:
+        found = _loop(self._vector(code, "w"), order, within, begin, self._pairs)
+        return self._apart(code, found) if self.are_few else found
+
+    def ended(self, code: Code, order: str, inner: list[str]) -> list[str]:
+        if self.are_few:
+            first = {series: code.load("%work", places[0] + self.width) for series, places in self.places.items()}
+            return _ended(code, self.terms, first, inner)
+        vector, found = self._vector(code, "e"), []
+        one, before = vector.at("%work", 1), vector.at("%work", code.new(f"sub i64 {order}, 1"))
+        for (u, v), value in zip(self._pairs, inner, strict=True):
+            half = vector.multiply_add(vector.load(one, u), vector.load(before, v), value)
+            found.append(vector.multiply_add(vector.load(before, u), vector.load(one, v), half))
+        return found
+
+    def each(self, code: Code, found: list[str]) -> dict[Term, str]:
+        return dict(zip(self.terms, found if self.are_few else self._apart(code, found), strict=True))
+
+    def _vector(self, code: Code, prefix: str) -> Code:
+        return Code(self.width, code.lines, code.declared, prefix=prefix)
+
+    @property
+    def _pairs(self) -> list[list[int]]:
+        return [[(2 * group + side) * MOST_ORDERS for side in (0, 1)] for group in range(self.groups)]
+
+    def _apart(self, code: Code, found: list[str]) -> list[str]:
+        kind = Code(self.width).kind
+        return [
+            code.new(f"extractelement {kind} {found[number // self.width]}, i32 {number % self.width}")
+            for number in range(len(self.terms))
+        ]
 
 
 @dataclass(frozen=True)
@@ -99,13 +147,23 @@ class OfMotions:
     def row(self, code: Code, order: str) -> str:
         return code.at("%work", order)
 
-    def write(self, code: Code, order: str, begin: str) -> dict[Term, str]:
+    def kind(self, code: Code) -> str:
+        return code.kind
+
+    def each(self, _code: Code, found: list[str]) -> dict[Term, str]:
+        return dict(zip(self.terms, found, strict=True))
+
+    def ended(self, code: Code, _order: str, inner: list[str]) -> list[str]:
+        first = {series: code.load("%work", places[0] + 1) for series, places in self.places.items()}
+        return _ended(code, self.terms, first, inner)
+
+    def write(self, code: Code, order: str, within: tuple[str, str], begin: str) -> list[str]:
         found: dict[Term, str] = {}
         for number, some in enumerate(_grouped(self.terms, TOGETHER)):
             pairs = [[self.places[series][0] for series in term] for term in some]
-            found |= dict(zip(some, _loop(code, order, begin, pairs, f"{number}"), strict=True))
+            found |= dict(zip(some, _loop(code, order, within, begin, pairs, f"{number}"), strict=True))
             begin = f"summed{number}"
-        return found
+        return [found[term] for term in self.terms]
 
 
 def _grouped(terms: Sequence[Term], most: int) -> list[list[Term]]:
@@ -122,17 +180,19 @@ def _grouped(terms: Sequence[Term], most: int) -> list[list[Term]]:
     return groups
 
 
-def _loop(code: Code, order: str, begin: str, pairs: Sequence[Sequence[int]], name: str = "") -> list[str]:
-    """Σ uⱼ vₖ₋ⱼ, 0 < j < k, for pairs of places of u₀ and v₀ in `work`; ends in the block `summed` + name."""
+def _loop(
+    code: Code, order: str, within: tuple[str, str], begin: str, pairs: Sequence[Sequence[int]], name: str = ""
+) -> list[str]:
+    """Σ uⱼ vₖ₋ⱼ, j in a range, for pairs of places of u₀ and v₀ in `work`; ends in the block `summed` + name."""
     zero, start = code.number(0.0), f"sum{name}"
     sums = [f"%s{name}.{i}" for i in range(len(pairs))]
     nexts = [f"%n{name}.{i}" for i in range(len(pairs))]
     code.do(f"br label %{start}")
     code.label(start)
-    code.do(f"%j{name} = phi i64 [ 1, %{begin} ], [ %jn{name}, %body{name} ]")
+    code.do(f"%j{name} = phi i64 [ {within[0]}, %{begin} ], [ %jn{name}, %body{name} ]")
     for one, following in zip(sums, nexts, strict=True):
         code.do(f"{one} = phi {code.kind} [ {zero}, %{begin} ], [ {following}, %body{name} ]")
-    more = code.new(f"icmp slt i64 %j{name}, {order}")
+    more = code.new(f"icmp slt i64 %j{name}, {within[1]}")
     code.do(f"br i1 {more}, label %body{name}, label %summed{name}")
     code.label(f"body{name}")
     ahead, back = code.at("%work", f"%j{name}"), code.at("%work", code.new(f"sub i64 {order}, %j{name}"))
@@ -143,6 +203,20 @@ def _loop(code: Code, order: str, begin: str, pairs: Sequence[Sequence[int]], na
     code.do(f"br label %{start}")
     code.label(f"summed{name}")
     return sums
+
+
+def _name(series: Series) -> str:
+    """What the coefficient of the order before is called."""
+    return f"q{series[0]}{'k' if series[1] else ''}"
+
+
+def _ended(code: Code, terms: Sequence[Term], first: Mapping[Series, str], inner: Sequence[str]) -> list[str]:
+    """Sums with their ends, from u₁ and v₁, and from uₖ₋₁ and vₖ₋₁ as they were found."""
+    found = []
+    for (u, v), value in zip(terms, inner, strict=True):
+        half = code.multiply_add(first[u], f"%{_name(v)}", value)
+        found.append(code.multiply_add(f"%{_name(u)}", first[v], half))
+    return found
 
 
 @dataclass(frozen=True)
@@ -200,6 +274,8 @@ class _Writer:
         for d, value in enumerate(following):
             code.do(f"{now[d]} = phi {code.kind} [ {value}, %entry ], [ %xn{d}, %chain ]")
         code.do(f"%t = phi {code.kind} [ {unit}, %entry ], [ {code.number(0.0)}, %chain ]")
+        for name in map(_name, self.sums.places):
+            code.do(f"%{name} = phi {code.kind} [ {code.number(0.0)}, %entry ], [ %{name}.n, %chain ]")
         self._order([*now[: 2 * r_.degrees], "%t"], now, begin, kept_, conditions, constants, unit)
 
     def _constants(self) -> list[str]:
@@ -247,9 +323,7 @@ class _Writer:
     ) -> None:
         """The block of order k: sums, operations, and the next coefficients of the state."""
         r_, code = self.recurrences, self.code
-        sums = self.sums.write(code, "%k", "order")
-        code.do("br label %chain")
-        code.label("chain")
+        sums = self._sums()
         order = code.spread(code.new("sitofp i64 %k to double"))
         inverse = code.divide(code.number(1.0), order)
         values = list(inputs)
@@ -271,9 +345,46 @@ class _Writer:
                 order=order,
                 inverse=inverse,
             )
-            values.append(later(code, operation.code, x))
+            joined = self._joined(operation, values, constants)
+            values.append(joined or later(code, operation.code, x))
             self._keep(place, values[-1], order, row)
         self._end(state, values, unit)
+
+    def _joined(self, operation: r.Operation, values: list[str], constants: list[str]) -> str:
+        """A sum or difference in which the later operand is a series times a constant, rounded once; else nothing."""
+        code, r_ = self.code, self.recurrences
+        if operation.code not in (r.ADD, r.SUBTRACT):
+            return ""
+        places = [place for place in (operation.a, operation.b) if place >= r_.inputs]
+        scaled = [place for place in places if r_.operations[place - r_.inputs].code == r.SCALE]
+        if not scaled or operation.a == operation.b:
+            return ""
+        place = max(scaled)
+        factor, series = constants[r_.operations[place - r_.inputs].constant], r_.operations[place - r_.inputs].a
+        other = values[operation.a if place == operation.b else operation.b]
+        if operation.code == r.SUBTRACT and place == operation.a:
+            other = code.negative(other)
+        elif operation.code == r.SUBTRACT:
+            factor = code.negative(factor)
+        return code.multiply_add(factor, values[series], other)
+
+    def _sums(self) -> dict[Term, str]:
+        """The sums of order k, in a block named `chain`; for k = 2 there is one product, for k = 1 none."""
+        code = self.code
+        is_second = code.new("icmp eq i64 %k, 2")
+        begin = code.new(f"select i1 {is_second}, i64 1, i64 2")
+        end = code.new(f"select i1 {is_second}, i64 2, i64 {code.new('sub i64 %k, 1')}")
+        inner, kind = self.sums.write(code, "%k", (begin, end), "order"), self.sums.kind(code)
+        code.do("br label %inner")
+        code.label("inner")
+        code.do(f"br i1 {code.new('icmp sgt i64 %k, 2')}, label %ends, label %chain")
+        code.label("ends")
+        whole = self.sums.ended(code, "%k", inner)
+        code.do("br label %chain")
+        code.label("chain")
+        pairs = zip(inner, whole, strict=True)
+        found = [code.new(f"phi {kind} [ {one}, %inner ], [ {other}, %ends ]") for one, other in pairs]
+        return self.sums.each(code, found)
 
     def _end(self, state: list[str], values: list[str], unit: str) -> None:
         """What an order leaves: coefficients of the state and of conditions' arguments; and the next order, if any."""
@@ -291,13 +402,13 @@ class _Writer:
 
     def _keep(self, place: int, value: str, order: str, row: str) -> None:
         """Keeps a coefficient for later sums, and k times it."""
-        places = self.sums.places
-        for at in places.get((place, False), ()):
-            self.code.store(value, row, at)
-        if (place, True) in places:
-            times_order = self.code.multiply(order, value)
-            for at in places[place, True]:
-                self.code.store(times_order, row, at)
+        for times_order in (False, True):
+            series = (place, times_order)
+            if series in self.sums.places:
+                kept_ = self.code.multiply(order, value) if times_order else value
+                for at in self.sums.places[series]:
+                    self.code.store(kept_, row, at)
+                self.code.do(f"%{_name(series)}.n = bitcast {self.code.kind} {kept_} to {self.code.kind}")
 
     def _integrated(self, state: list[str], values: list[str], unit: str, next_order: str) -> list[str]:
         """The next coefficients of the state: those of its derivative times H / (k + 1)."""

@@ -94,12 +94,11 @@ def marching() -> MachineCode:
 
     The series where the lanes are is number program[SLOT], before and behind.
     """
-    return compiled({"march": _march()}, THOROUGH)
+    return compiled({"march": _march()}, THOROUGH, inner=(_mixed(), _seen()))
 
 
 def _march() -> Code:
     code = Code(LANES)
-    code.defined |= {"mixed": _mixed(), "seen": _seen()}
     code.label("entry")
     number = [code.new(f"load i64, ptr {_gep('i64', code, '%program', place)}") for place in range(PROGRAM)]
     states, told, plans, records = (code.at("%given", number[i]) for i in (AT_STATES, AT_TOLD, AT_PLANS, AT_RECORDS))
@@ -272,21 +271,7 @@ def _seen() -> str:
     code.do("br label %component")
     code.label("component")
     code.do("%d = phi i64 [ 0, %part ], [ %dn, %summed ]")
-    first = code.load("%series", code.new(f"add i64 {last_row}, %d"))
-    code.do("br label %sum")
-    code.label("sum")
-    code.do(f"%row = phi i64 [ {last_row}, %component ], [ %rown, %term ]")
-    code.do(f"%value = phi {code.kind} [ {first}, %component ], [ %valuen, %term ]")
-    code.do(f"%slope = phi {code.kind} [ {code.number(0.0)}, %component ], [ %slopen, %term ]")
-    code.do(f"%rown = sub i64 %row, {components}")
-    code.do(f"br i1 {code.new('icmp sgt i64 %rown, 0')}, label %term, label %summed")
-    code.label("term")
-    slope = code.multiply_add("%slope", x, "%value")
-    value = code.multiply_add("%value", x, code.load("%series", code.new("add i64 %rown, %d")))
-    code.do(f"%slopen = bitcast {code.kind} {slope} to {code.kind}")
-    code.do(f"%valuen = bitcast {code.kind} {value} to {code.kind}")
-    code.do("br label %sum")
-    code.label("summed")
+    _horner(code, x, last_row, components)
     change = code.add(code.multiply("%value", x), code.load("%rest", "%d"))
     code.store(code.add(code.load("%old", "%d"), change), "%to", "%d")
     rates = code.at("%to", code.new(f"add i64 {rated}, 1"))
@@ -305,6 +290,25 @@ def _seen() -> str:
     numbers = ", ".join(f"{code.kind} %{name}" for name in ("size", "now", "end", "unit"))
     head = f"define internal void @seen(ptr %series, ptr %into, ptr %old, ptr %rest, ptr %program, {numbers}) #0 {{"
     return "\n".join([*sorted(code.declared), head, *code.lines, "}"])
+
+
+def _horner(code: Code, x: str, last_row: str, components: str) -> None:
+    """%value, Σ cₖ x^(k−1) of component %d, and its derivative %slope; begins in the block `component`."""
+    first = code.load("%series", code.new(f"add i64 {last_row}, %d"))
+    code.do("br label %sum")
+    code.label("sum")
+    code.do(f"%row = phi i64 [ {last_row}, %component ], [ %rown, %term ]")
+    code.do(f"%value = phi {code.kind} [ {first}, %component ], [ %valuen, %term ]")
+    code.do(f"%slope = phi {code.kind} [ {code.number(0.0)}, %component ], [ %slopen, %term ]")
+    code.do(f"%rown = sub i64 %row, {components}")
+    code.do(f"br i1 {code.new('icmp sgt i64 %rown, 0')}, label %term, label %summed")
+    code.label("term")
+    slope = code.multiply_add("%slope", x, "%value")
+    value = code.multiply_add("%value", x, code.load("%series", code.new("add i64 %rown, %d")))
+    code.do(f"%slopen = bitcast {code.kind} {slope} to {code.kind}")
+    code.do(f"%valuen = bitcast {code.kind} {value} to {code.kind}")
+    code.do("br label %sum")
+    code.label("summed")
 
 
 def _mixed() -> str:

@@ -93,9 +93,9 @@ def _multiply(code: Code, x: Operands) -> str:
 
 
 def _divide(code: Code, x: Operands) -> str:
-    """a = y b solved for yₖ."""
-    rest = code.subtract(x.a, x.sums[0])
-    return code.multiply(code.multiply_add(code.negative(x.y0), x.b, rest), x.extra)
+    """a = y b solved for yₖ; a, which comes last, is waited for by one operation only, as in what follows."""
+    rest = code.multiply(code.multiply_add(x.y0, x.b, x.sums[0]), x.extra)
+    return code.multiply_add(x.a, x.extra, code.negative(rest))
 
 
 def _reciprocal(code: Code, x: Operands) -> str:
@@ -104,14 +104,14 @@ def _reciprocal(code: Code, x: Operands) -> str:
 
 def _root(code: Code, x: Operands) -> str:
     """a = y² solved for yₖ."""
-    return code.multiply(code.subtract(x.a, x.sums[0]), x.extra)
+    return code.multiply_add(x.a, x.extra, code.negative(code.multiply(x.sums[0], x.extra)))
 
 
 def _power(code: Code, x: Operands) -> str:
     """a y′ = γ y a′ solved for yₖ."""
-    slope = code.multiply_add(code.multiply(x.order, x.a), x.y0, x.sums[0])
-    rest = code.subtract(code.multiply(x.constant, slope), x.sums[1])
-    return code.multiply(code.multiply(rest, x.extra), x.inverse)
+    rest = code.multiply_add(x.constant, x.sums[0], code.negative(x.sums[1]))
+    slope = code.multiply(code.multiply(x.constant, x.y0), x.extra)
+    return code.multiply_add(x.a, slope, code.multiply(rest, code.multiply(x.extra, x.inverse)))
 
 
 def _rise(code: Code, x: Operands) -> str:
@@ -121,7 +121,7 @@ def _rise(code: Code, x: Operands) -> str:
 
 def _quotient(code: Code, x: Operands) -> str:
     """b y′ = a′ solved for yₖ."""
-    return code.multiply(code.multiply_add(code.negative(x.sums[0]), x.inverse, x.a), x.extra)
+    return code.multiply_add(x.a, x.extra, code.negative(code.multiply(x.sums[0], code.multiply(x.inverse, x.extra))))
 
 
 def _negative_quotient(code: Code, x: Operands) -> str:
