@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import math
+from itertools import pairwise
 
 import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
+from scipy.optimize import brentq
 from tests.simulation.scenes import scene
 
 from deltaq.lab.orbits import ORDER, TOLERANCE
@@ -170,3 +172,44 @@ def test_an_orbit_ends_with_the_points_wanted() -> None:
     np.testing.assert_allclose(found.times[:5], math.tau * np.arange(5), atol=1e-11)
     assert (len(found.times), standing.outcomes[0]) == (5, FINE)
     assert standing.reached[0] < 40.0
+
+
+def test_orbits_that_end_one_after_the_other_have_the_points_they_have_alone() -> None:
+    """x = vt, y = 0.3 cos t: sin x rises at t = 2πk/v; the fastest of 21, three blocks of lanes, are first."""
+    speeds = np.linspace(0.4, 2.5, 21)
+    starts = np.column_stack([0.0 * speeds, np.full(21, 0.3), speeds, 0.0 * speeds])
+    found, standing = crossings(plane("m*y^2/2"), "sin(x)", starts, 200.0, most=7)
+    assert standing.outcomes.tolist() == [FINE] * 21
+    np.testing.assert_array_equal(standing.crossed, 7)
+    assert np.all(standing.reached < 6.0 * math.tau / speeds + 10.0)
+    for number, speed in enumerate(speeds):
+        mine, times = found.motions == number, math.tau * np.arange(7) / speed
+        np.testing.assert_allclose(found.times[mine], times, atol=1e-11)
+        np.testing.assert_allclose(found.states[mine, 1], 0.3 * np.cos(times), atol=1e-11)
+
+
+def test_a_step_that_hides_a_crossing_is_gone_back_to_and_the_others_stay() -> None:
+    """h = cos t + 3 exp(−2(t − 9)²), whatever the motion does: its zeros by Brent's method."""
+
+    def h(t: float) -> float:
+        return math.cos(t) + 3.0 * math.exp(-2.0 * (t - 9.0) ** 2)
+
+    places = np.linspace(0.0, 40.0, 4001)
+    rising = [(a, b) for a, b in pairwise(places) if h(a) < 0.0 <= h(b)]
+    true = [brentq(h, a, b, xtol=1e-14, rtol=1e-14) for a, b in rising]
+    starts = np.column_stack([np.zeros(3), np.zeros(3), np.full(3, 1.0), np.linspace(0.1, 0.5, 3)])
+    found, _ = crossings(plane("m*(x^2 + y^2)/2"), "cos(t) + 3*exp(-2*(t - 9)^2)", starts, 40.0)
+    for number in range(3):
+        np.testing.assert_allclose(found.times[found.motions == number], true, atol=1e-12)
+
+
+def test_steps_that_do_not_see_the_plane_are_gone_back_to() -> None:
+    """Free particles take steps as long as they like; sin t² rises through zero where t² = 2πk, ever faster."""
+    starts = np.column_stack([np.zeros(9), np.zeros(9), np.linspace(0.5, 2.0, 9), np.zeros(9)])
+    found, standing = crossings(plane("0*x"), "sin(t^2)", starts, 12.0)
+    for number in range(9):
+        mine = found.motions == number
+        times = np.sqrt(math.tau * np.arange(1, 23))
+        np.testing.assert_allclose(found.times[mine], times, atol=1e-12)
+        np.testing.assert_allclose(found.states[mine, 0], starts[number, 2] * times, rtol=1e-13)
+    assert standing.outcomes.tolist() == [FINE] * 9

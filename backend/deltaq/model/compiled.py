@@ -5,6 +5,7 @@ from __future__ import annotations
 import ctypes
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -31,7 +32,7 @@ class Compiled:
     inputs: int
     outputs: int
 
-    @property
+    @cached_property
     def addresses(self) -> tuple[int, int]:
         """The function's address and that of its data, the last argument of every call."""
         pointer, data = self.function.as_ctypes()

@@ -99,6 +99,9 @@ class Model:
     of: Callable[[Scene], Equations] = field(default=equations, repr=False, compare=False)
     usage: Usage = field(default_factory=Usage, init=False, repr=False, compare=False)
     _made: dict[Hashable, object] = field(default_factory=dict, init=False, repr=False, compare=False)
+    _latest: dict[Hashable, tuple[Hashable, object]] = field(
+        default_factory=dict, init=False, repr=False, compare=False
+    )
 
     @cached_property
     def thorough(self) -> Compiled:
@@ -138,6 +141,13 @@ class Model:
         if key not in self._made:
             self._made[key] = make()
         return cast("T", self._made[key])
+
+    def latest(self, key: Hashable, of: Hashable, make: Callable[[], T]) -> T:
+        """What was made under a key, if it was last made of the same; else made now, and kept instead."""
+        known = self._latest.get(key)
+        if known is None or known[0] != of:
+            known = self._latest[key] = of, make()  # one assignment: others may ask at the same time
+        return cast("T", known[1])
 
     def has(self, key: Hashable) -> bool:
         """Whether something is kept under a key."""

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from ..model.recurrences import nudged
 from .constraints import block, solved_in
 from .kernels.constraints import constrained_motion, constrained_phase
+from .kernels.ensemble import aligned
 from .kernels.explicit_runge_kutta import integrate
 from .kernels.implicit_runge_kutta import integrate_implicit
 from .kernels.implicit_workspace import make_implicit_workspace
@@ -122,19 +123,19 @@ def _newmark(scheme: Newmark, arguments: KernelArguments) -> Result:
 def _series(scheme: Series, arguments: KernelArguments) -> Result:
     problem = arguments.problem
     jet = jet_of_model(problem.model, is_long=arguments.is_long)
-    recurrences, state = problem.model.recurrences, problem.state
-    constants = recurrences.constants(np.array(problem.parameters))
+    recurrences, state, parameters = problem.model.recurrences, problem.state, problem.parameters
+    constants = problem.model.latest("constants", parameters, lambda: recurrences.constants(np.array(parameters)))
     if arguments.is_nudged:
         constants, state = recurrences.nudged(constants), nudged(state)
     order = arguments.order or scheme.order_for(arguments.control.tolerance)
     sizes = (len(recurrences.conditions), jet.shape.components, jet.work)
-    series = make_series(jet.code.address, order, jet.program, sizes, state, constants)
+    series = make_series(jet.code.address, order, jet.program, sizes, state, constants)._replace(work=aligned(jet.work))
     return integrate_series(
         arguments.motion,
         series,
         arguments.control,
         arguments.watch,
-        np.zeros_like(problem.state),
+        np.zeros_like(state),
         arguments.times,
         arguments.out,
     )
@@ -160,13 +161,22 @@ def motion_of(problem: Problem, *, is_long: bool = True, is_kicked: bool = False
 
 def watch_of(problem: Problem, flag: Flag, scheme: Scheme | None = None) -> Watch:
     """What may end a run of a problem by a scheme, for kernels: the flag, shape (1,), events, and friction."""
-    function, switch = problem.model.events, _switch_of(problem)
+    function = problem.model.events
+    if function is None and problem.model.switches is None:
+        return _nothing_watched()._replace(cancelled=flag)
+    switch = _switch_of(problem)
     if function is None:
         return unwatched(flag, switch)
     nodes = NODES_OF_SERIES if isinstance(scheme, Series) else NODES
     inputs = np.zeros(function.inputs)
     inputs[2 * problem.degrees + 1 :] = problem.parameters
     return make_watch(flag, function.addresses, function.outputs, inputs, problem.state.size, switch, nodes)
+
+
+@cache
+def _nothing_watched() -> Watch:
+    """For motions without events and friction: nothing is written to these arrays."""
+    return unwatched(np.zeros(1, dtype=np.int64))
 
 
 def _switch_of(problem: Problem) -> Switch:

@@ -184,7 +184,8 @@ def _found(arguments: KernelArguments, plan: Plan, result: Result, wall_time: fl
     """What a kernel left, as far as it is finite."""
     problem, times = arguments.problem, arguments.times
     out, conditioning = arguments.out, float(arguments.motion.conditioning[0])
-    good = int(np.isfinite(out[: result.samples]).all(axis=1).cumprod().sum())
+    known = np.isfinite(out[: result.samples])
+    good = len(known) if known.all() else int(known.all(axis=1).cumprod().sum())
     reactions = None
     if problem.is_constrained:
         memory = arguments.motion.memory
