@@ -29,7 +29,7 @@ TURNING = 4.0  # times the largest difference nearby: more than that no phase hi
 ROUNDING, EPSILON = 4e-16, 2.0**-52
 OF_STATE = 4.0 * EPSILON  # of a coordinate or rate: its rounding where λ is computed from it
 STOPS = 1.5  # times the difference of two stops
-OF_TERMS = 2.4e-15  # of the largest multiplier: rounding errors of the terms that each is the difference of
+OF_TERMS = 3.2e-15  # of the largest multiplier: rounding errors of the terms that each is the difference of
 CLOSE = 3e-14  # so much of a difference may be one of rounding errors, which are no smaller in the finer run
 MATTERS = 0.05  # of the estimate: rounding that could be more is looked at
 LINEAR = 0.1  # of the size of a coordinate: differences up to that are proportional to errors
@@ -153,10 +153,19 @@ def _of_multipliers(problem: Problem, coarse: Run, fine: Run, doubts: Floats, fa
     largest = np.abs(found).max(axis=1, initial=0.0)[:, None]
     rounding = OF_TERMS * largest / np.sqrt(fine.conditioning) if fine.conditioning > 0.0 else np.inf
     slopes, apart = _slopes(problem, fine, count), np.abs(other - found)
-    differences = factors[:count] * apart + np.minimum(apart, CLOSE * largest)
+    doubts = _not_faded(doubts[:, :count])
+    differences = _not_faded(factors[:count] * apart + np.minimum(apart, CLOSE * largest))
     errors = np.minimum(_summed(slopes, doubts), TURNING * _largest_within(differences, max(2, count // FAR)))
     own = _summed(slopes, OF_STATE * np.abs(fine.states[:count, : doubts.shape[0]].T))
     return _known(np.maximum(errors, np.maximum(own, rounding))).T
+
+
+def _not_faded(errors: Floats) -> Floats:
+    """Errors no smaller than a share of the largest before, in each row: shape (rows, samples).
+
+    Towards the end, where nothing larger follows, both runs may come through zero, and that tells of no small error.
+    """
+    return np.asarray(np.maximum(errors, ANYWHERE * np.maximum.accumulate(errors, axis=1)))
 
 
 def _slopes(problem: Problem, fine: Run, count: int) -> Floats:
