@@ -15,7 +15,8 @@ FINEST_TOLERANCE = 1e-14  # of the coarser run of a pair; below, rounding rules
 COARSEST_TOLERANCE = 3e-4  # of the coarser run; with more, its error says little of that of the finer one
 # In the first try with a fixed step. Samples are a few hundred, as a rule a round number: steps that end at all of them
 # would hide from the pair how wrong the finer run is inside its steps. Of these, as many to a sample are never whole.
-FIRST_STEPS, USUAL_TOLERANCE = 200.0 * (5.0**0.5 - 1.0), 1e-3
+FIRST_STEPS: float = 200.0 * (5.0**0.5 - 1.0)
+USUAL_TOLERANCE = 1e-3
 UNFINISHED = 0.25  # the step over that of a run that did not come to the end
 RATIO: float = 3.0 + 0.5**0.5  # of the steps of a pair, below order 5
 HIGH = 5  # the least order of methods whose pairs are FINER apart
