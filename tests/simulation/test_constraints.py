@@ -76,6 +76,18 @@ def test_a_rod_carries_weight_and_centripetal_force_in_tension() -> None:
     assert (np.abs(reactions(found)[:, 0] - (square + G * np.cos(angle))) <= found.estimate.multipliers[:, 0]).all()
 
 
+@pytest.mark.parametrize("method", ["gauss-6", "implicit-midpoint", "rk4"])
+def test_errors_inside_first_steps_are_told(method: str) -> None:
+    """Samples lie within steps, where the force errs by more than at their ends: no more than half of what is told."""
+    for t_end in (2.0, 4.0):
+        found = moved(pendulum(), t_end, 1e-2, method)
+        angle, square = swing(found.times)
+        wrong = np.abs(reactions(found)[:, 0] - (square + G * np.cos(angle)))
+        assert found.estimate is not None
+        assert found.estimate.multipliers is not None
+        assert (wrong <= 0.5 * found.estimate.multipliers[:, 0] + 1e-13).all()
+
+
 def test_nothing_drifts_in_a_thousand_periods() -> None:
     assert drift(moved(pendulum(), 2370.0, 1e-6, samples=401)) < 1e-13
     rocking = four_bar()
