@@ -69,6 +69,7 @@ def integrate(
     if outcome != FINE:
         return Result(outcome, 1, 0, 0, 1, t)
     is_adaptive = control.tolerance > 0.0
+    reads_end = weights.reads_end if is_adaptive else 0
     wanted = first_step(motion, control, t, workspace) if is_adaptive else np.inf
     filled, steps, rejected, evaluations, before, growth = (
         runtime_int(1),
@@ -89,7 +90,7 @@ def integrate(
         if outcome != FINE:
             break
         h, ends_piece = fit_step(plan, piece, t, wanted)
-        outcome = attempt(motion, weights, t, h, workspace)
+        outcome = attempt(motion, weights, t, h, reads_end, workspace)
         evaluations += end
         error = error_norm(weights.error, control.tolerance, h, motion.degrees, workspace) if is_adaptive else 0.0
         if outcome == FINE and error <= 1.0:

@@ -109,15 +109,16 @@ def advance(b: Floats, h: float, workspace: Workspace) -> int:
 
 
 @inline
-def attempt(motion: Motion, weights: Weights, t: float, h: float, workspace: Workspace) -> int:
+def attempt(motion: Motion, weights: Weights, t: float, h: float, reads_end: int, workspace: Workspace) -> int:
     """All stages of one step, the new state and the derivative there; returns the outcome.
 
-    Where the new state will be projected, its derivative is computed then, and here only if the error depends on it.
+    Where the new state will be projected, its derivative is computed then, and here only if it is read before
+    (`reads_end`), as by an error that is estimated.
     """
     outcome = stages(motion, weights.a, weights.c, runtime_int(1), t, h, workspace)
     if outcome == FINE:
         outcome = advance(weights.b, h, workspace)
-    if outcome == FINE and (motion.finish == 0 or weights.reads_end != 0):
+    if outcome == FINE and (motion.finish == 0 or reads_end != 0):
         outcome = rhs(motion, t + h, workspace.new, workspace.derivatives[weights.b.size])
     return outcome
 

@@ -116,10 +116,10 @@ def step_both(pair: Pair, progress: Progress, left: float) -> int:
     outcome, growth = FINE, LARGEST_GROWTH
     while outcome == FINE:
         h = min(clock[1], left)
-        outcome = attempt(pair.motion, pair.weights, clock[0], h, workspace)
+        outcome = attempt(pair.motion, pair.weights, clock[0], h, pair.weights.reads_end, workspace)
         error = error_norm(pair.weights.error, control.tolerance, h, pair.motion.degrees, workspace)
         if outcome == FINE and error <= 1.0:
-            outcome = attempt(pair.motion, pair.weights, clock[0], h, pair.neighbour)
+            outcome = attempt(pair.motion, pair.weights, clock[0], h, pair.weights.reads_end, pair.neighbour)
             accept(end, workspace)
             accept(end, pair.neighbour)
             proposed = controlled_step(control, h, log_error(error), log_error(1e-4), growth)
