@@ -10,7 +10,7 @@ from typing import Any
 import pytest
 
 from deltaq.api.kernels import Kernels
-from deltaq.api.workers.job import Job, Overloaded
+from deltaq.api.workers.job import Job, Preparing
 from deltaq.api.workers.kernels import are_compiled
 from deltaq.errors import UnknownNameError
 from deltaq.simulation.kernels.marks import declared, mark
@@ -62,6 +62,45 @@ async def test_a_simulation_waits_for_the_kernels_of_its_method_only(make_pool: 
 
 
 @pytest.mark.anyio
+async def test_what_somebody_waits_for_is_compiled_first(make_pool: MakePool) -> None:
+    pool, kernels = make_pool(), Kernels(COMPILE, ECHO)
+    compiling = asyncio.create_task(kernels.compile(pool, pool, workers=1))
+    await asyncio.sleep(0)  # the first group has been begun
+    come = await in_order(
+        taylor=kernels.wait("taylor"), ensembles=others(kernels, "ensembles"), implicit=others(kernels, "gauss-4")
+    )
+    assert come[0] == "taylor"
+    await compiling
+
+
+async def others(kernels: Kernels, method: str) -> None:
+    """Until kernels are there that nobody asks for."""
+    while kernels.is_compiling(method):
+        await asyncio.sleep(0.01)
+
+
+@pytest.mark.anyio
+async def test_a_motion_is_tried_again_as_soon_as_there_is_one_kernel_more(
+    make_pool: MakePool, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("deltaq.api.kernels.PAUSE", 0.02)
+    pool, kernels = make_pool(), Kernels(SLEEP, ECHO)
+    compiling = asyncio.create_task(kernels.compile(pool, pool, workers=1))
+    await asyncio.sleep(0)
+    first, second, *_ = declared()
+    waiting = asyncio.create_task(kernels.more("rk4", 0))
+    await asyncio.sleep(0.1)
+    assert not waiting.done()
+    mark(first)
+    assert await waiting == 1
+    mark(second)
+    assert await kernels.more("rk4", 1) == 2
+    compiling.cancel()
+    with pytest.raises(asyncio.CancelledError):
+        await compiling
+
+
+@pytest.mark.anyio
 async def test_what_is_compiled_is_not_waited_for(make_pool: MakePool) -> None:
     pool, later = make_pool(), Kernels(SLEEP, SLEEP)
     mark(*declared())
@@ -88,8 +127,10 @@ async def test_patience_has_an_end(make_pool: MakePool) -> None:
     pool, kernels = make_pool(), Kernels(SLEEP, ECHO, timeout=0.05)
     compiling = asyncio.create_task(kernels.compile(pool, pool, workers=1))
     await asyncio.sleep(0)
-    with pytest.raises(Overloaded, match=r"^the numerical kernels are still being compiled$"):
+    with pytest.raises(Preparing, match=r"^the numerical kernels are still being compiled$"):
         await kernels.wait("gauss-4")
+    with pytest.raises(Preparing):
+        await kernels.more("gauss-4", len(list(declared())))
     compiling.cancel()
     with pytest.raises(asyncio.CancelledError):
         await compiling

@@ -57,8 +57,9 @@ def simulate(document: Document) -> Document:
 
 
 def simulate_at_once(document: Document) -> Document | None:
-    """The same while kernels are being compiled; None for a motion that has to wait for them."""
-    answer: Document | None = import_module("deltaq.simulation.service").run_at_once(document["request"])
+    """The same while kernels are being compiled; None for a motion that has to wait for more of them."""
+    run = import_module("deltaq.simulation.service").run_at_once
+    answer: Document | None = run(document["request"], is_loaded=document["loaded"])
     return None if answer is None else answer | explained(answer, document["request"]["lang"])
 
 

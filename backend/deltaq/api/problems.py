@@ -24,7 +24,7 @@ from ..vocabulary import Language
 from .languages import language_of
 from .strict_json import JsonError
 from .workers.account import QuotaExceeded
-from .workers.job import DeadlineExceeded, JobError, JobFailed, MemoryExceeded, Overloaded, WorkerKilled
+from .workers.job import DeadlineExceeded, JobError, JobFailed, MemoryExceeded, Overloaded, Preparing, WorkerKilled
 
 LOGGER = logging.getLogger("deltaq.api")
 MEDIA_TYPE = "application/problem+json"
@@ -59,6 +59,7 @@ QUOTA_EXCEEDED = ProblemType("quota-exceeded", 429)
 INTERNAL_ERROR = ProblemType("internal-error", 500)
 INTERRUPTED = ProblemType("interrupted", 503)
 OVERLOADED = ProblemType("overloaded", 503)
+PREPARING = ProblemType("preparing", 503)
 COMPUTATION_TOO_LARGE = ProblemType("computation-too-large", 504)
 HTTP_ERROR = ProblemType("http-error", 400)  # of any status that has no type of its own
 
@@ -78,6 +79,7 @@ TYPES: tuple[ProblemType, ...] = (
     COMPUTATION_TOO_LARGE,
     QUOTA_EXCEEDED,
     OVERLOADED,
+    PREPARING,
     INTERRUPTED,
     INTERNAL_ERROR,
 )
@@ -89,13 +91,14 @@ _TYPES: tuple[tuple[type[Exception], ProblemType], ...] = (
     (InputError, INVALID_REQUEST),
     (RequestValidationError, INVALID_REQUEST),
     (QuotaExceeded, QUOTA_EXCEEDED),
+    (Preparing, PREPARING),
     (Overloaded, OVERLOADED),
     (WorkerKilled, INTERRUPTED),
     (DeadlineExceeded, COMPUTATION_TOO_LARGE),
     (MemoryExceeded, COMPUTATION_TOO_LARGE),
     (Exception, INTERNAL_ERROR),
 )
-_TEMPORARY = frozenset({QUOTA_EXCEEDED, OVERLOADED, INTERRUPTED})
+_TEMPORARY = frozenset({QUOTA_EXCEEDED, OVERLOADED, PREPARING, INTERRUPTED})
 _HTTP_TYPES = {
     404: NOT_FOUND,
     405: METHOD_NOT_ALLOWED,

@@ -6,6 +6,7 @@ from collections.abc import Mapping
 from contextlib import suppress
 from dataclasses import replace
 from functools import partial
+from importlib import import_module
 from time import perf_counter
 from typing import NoReturn
 
@@ -29,7 +30,7 @@ from .derivatives import power
 from .driver import is_suitable, simulate
 from .event import event_values
 from .friction import friction_along
-from .kernels.compiler import MachineCodeNeededError, interpreted, soonest
+from .kernels.compiler import MACHINE, MachineCodeNeededError, interpreted, soonest
 from .library import ENSEMBLES, get_method, method_ids
 from .outcome import Outcome
 from .problem import Floats, Problem, Released
@@ -48,8 +49,14 @@ def run(document: Mapping[str, object]) -> Document:
     return soonest(partial(_run, document), SOON)
 
 
-def run_at_once(document: Mapping[str, object]) -> Document | None:
-    """The same by kernels that are interpreted where they are not compiled; None if that takes too long."""
+def run_at_once(document: Mapping[str, object], *, is_loaded: bool = False) -> Document | None:
+    """The same by kernels that are interpreted where they are not compiled; None if that takes too long.
+
+    Those that are compiled are interpreted as well in a process that has run none, unless what runs them is to be
+    loaded first.
+    """
+    if is_loaded:
+        import_module(MACHINE)
     with suppress(MachineCodeNeededError):
         return interpreted(partial(_run, document), AT_ONCE)
     return None
@@ -160,12 +167,12 @@ def warm(*chosen: str) -> None:
 
     That is a first run with each method, without and with constraints, and one of an ensemble.
     """
-    problems = [problem_of(load_scene(scene), 0.1, 2) for scene in ("pendulum", "cartesian-pendulum")]
-    for method in map(get_method, method_ids()):
-        if not chosen or method.family in chosen:
-            for problem in problems:
-                if is_suitable(problem, method):
-                    simulate(problem, method, step=0.05)
+    methods = [method for method in map(get_method, method_ids()) if not chosen or method.family in chosen]
+    for scene in ("pendulum", "cartesian-pendulum") if methods else ():  # what most motions need comes first
+        problem = problem_of(load_scene(scene), 0.1, 2)
+        for method in methods:
+            if is_suitable(problem, method):
+                simulate(problem, method, step=0.05)
     if not chosen or ENSEMBLES in chosen:
         ensemble.warm(problem_of(load_scene("pendulum"), 0.1, 2))
 

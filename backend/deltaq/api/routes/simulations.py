@@ -27,21 +27,27 @@ async def simulate(request: Request, body: SimulationRequest) -> Response:
     """Simulate a scene. A run that fails is an answer too: it says how far it came, why, and what to do."""
     service = service_of(request)
     question = question_of(request, body)
-    if service.kernels.is_compiling(body.method):
-        early = await _at_once(service, question, expected(SIMULATE_AT_ONCE, body, FAST))
+    count = 0
+    while service.kernels.is_compiling(body.method):
+        early = await _at_once(service, question, expected(SIMULATE_AT_ONCE, body, FAST), count)
         if early is not None:
             return packed(request, *early)
+        count = await service.kernels.more(body.method, count)
     key = service.key(SIMULATE.target, question)
     await service.kernels.wait(body.method)
     job = expected(SIMULATE.within(service.settings.simulation_deadline), body, FAST)
     return packed(request, key, await service.answer(key, job, {"request": question}))
 
 
-async def _at_once(service: Service, question: Any, job: Job) -> tuple[str, bytes] | None:
-    """The answer of interpreted kernels under a key of its own; None if that takes too long, or no worker is free."""
-    key = service.key(job.target, question)
+async def _at_once(service: Service, question: Any, job: Job, count: int) -> tuple[str, bytes] | None:
+    """The answer by the kernels that are there, and the others interpreted, under a key of its own.
+
+    None if that takes too long, or no worker is free. `count` are those known to be there: 0 at first, when loading
+    what runs machine code would take longer than most motions.
+    """
+    key = service.key(job.target, question, count)
     try:
-        answer = await service.answer(key, job, {"request": question})
+        answer = await service.answer(key, job, {"request": question, "loaded": count > 0})
     except JobError:
         return None
     return None if gzip.decompress(answer) == NOTHING else (key, answer)

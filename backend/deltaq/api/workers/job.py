@@ -82,6 +82,12 @@ class Overloaded(JobError):
     """The queue is full, or the job waited in it for too long."""
 
 
+class Preparing(Overloaded):
+    """What the job runs in is being compiled, once on a machine, and was not there in time."""
+
+    seconds = 10.0  # after which it is worth asking again
+
+
 class JobFailed(JobError):
     """The job raised an exception that is our bug; `trace` is its traceback."""
 
