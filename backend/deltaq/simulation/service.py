@@ -36,6 +36,8 @@ from .outcome import Outcome
 from .problem import Floats, Problem, Released
 from .request import Request, read_request
 from .rounding import short
+from .run import Steps
+from .run import run as one_run
 from .trajectory import Trajectory
 from .transitions import TOUCHING, NoDirectionError, UnsettledError, begun
 
@@ -165,11 +167,17 @@ def problem_of(scene: Scene, t_end: float, samples: int = 501) -> Problem:
 def warm(*chosen: str) -> None:
     """Compiles some groups of kernels, or loads them from the cache on disk; all if none is named.
 
-    That is a first run with each method, without and with constraints, and one of an ensemble.
+    That is a first run with each method, without and with constraints, and one of an ensemble. The stepping loops come
+    first: with them most motions can be had already, what else they need being interpreted (`run_at_once`).
     """
     methods = [method for method in map(get_method, method_ids()) if not chosen or method.family in chosen]
-    for scene in ("pendulum", "cartesian-pendulum") if methods else ():  # what most motions need comes first
-        problem = problem_of(load_scene(scene), 0.1, 2)
+    problems = (
+        [problem_of(load_scene(scene), 0.1, 2) for scene in ("pendulum", "cartesian-pendulum")] if methods else []
+    )
+    for problem in problems[:1]:
+        for method in methods:
+            one_run(problem, method, np.array([0.0, 0.1]), np.zeros(1, dtype=np.int64), Steps(0.05))
+    for problem in problems:
         for method in methods:
             if is_suitable(problem, method):
                 simulate(problem, method, step=0.05)
