@@ -171,13 +171,11 @@ def warm(*chosen: str) -> None:
     first: with them most motions can be had already, what else they need being interpreted (`run_at_once`).
     """
     methods = [method for method in map(get_method, method_ids()) if not chosen or method.family in chosen]
-    problems = (
-        [problem_of(load_scene(scene), 0.1, 2) for scene in ("pendulum", "cartesian-pendulum")] if methods else []
-    )
-    for problem in problems[:1]:
-        for method in methods:
-            one_run(problem, method, np.array([0.0, 0.1]), np.zeros(1, dtype=np.int64), Steps(0.05))
-    for problem in problems:
+    times, flag = np.array([0.0, 0.1]), np.zeros(1, dtype=np.int64)
+    for method in methods:
+        one_run(problem_of(load_scene("elastic-pendulum"), 0.1, 2), method, times, flag, Steps(0.05))
+    for scene in ("pendulum", "cartesian-pendulum") if methods else ():
+        problem = problem_of(load_scene(scene), 0.1, 2)
         for method in methods:
             if is_suitable(problem, method):
                 simulate(problem, method, step=0.05)
