@@ -31,7 +31,7 @@ from deltaq.simulation.library import ENSEMBLES, families, get_method, kernel_gr
 from deltaq.simulation.method import Method
 from deltaq.simulation.outcome import codes
 from deltaq.simulation.problem import Problem as Started
-from deltaq.simulation.service import problem_of, run, run_at_once, warm
+from deltaq.simulation.service import problem_of, run, run_at_once, run_meanwhile, warm
 
 FIELDS = {
     *("status", "reason", "remedy", "event", "events", "method", "choice", "columns", "t"),
@@ -172,7 +172,7 @@ def test_the_time_of_compiling_is_told_by_itself(monkeypatch: pytest.MonkeyPatch
 def test_what_is_asked_at_once_is_the_same_answer_or_none(monkeypatch: pytest.MonkeyPatch) -> None:
     asked = {"scene": "pendulum", "t_end": 0.1, "samples": 3, "method": "rk4", "step": 0.05}
     soon = run(asked)
-    for now in (run_at_once(asked), run_at_once(asked, is_loaded=True)):
+    for now in (run_at_once(asked), run_meanwhile(asked)):
         assert now is not None
         assert {**now, "cost": None} == {**soon, "cost": None}
 

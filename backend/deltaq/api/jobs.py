@@ -57,9 +57,14 @@ def simulate(document: Document) -> Document:
 
 
 def simulate_at_once(document: Document) -> Document | None:
-    """The same while kernels are being compiled; None for a motion that has to wait for more of them."""
-    run = import_module("deltaq.simulation.service").run_at_once
-    answer: Document | None = run(document["request"], is_loaded=document["loaded"])
+    """The same while kernels are being compiled; None for a motion that has to wait for them."""
+    answer: Document | None = import_module("deltaq.simulation.service").run_at_once(document["request"])
+    return None if answer is None else answer | explained(answer, document["request"]["lang"])
+
+
+def simulate_meanwhile(document: Document) -> Document | None:
+    """The same by the kernels that are there, with more patience for those that are not."""
+    answer: Document | None = import_module("deltaq.simulation.service").run_meanwhile(document["request"])
     return None if answer is None else answer | explained(answer, document["request"]["lang"])
 
 

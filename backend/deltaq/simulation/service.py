@@ -42,7 +42,8 @@ from .trajectory import Trajectory
 from .transitions import TOUCHING, NoDirectionError, UnsettledError, begun
 
 ANGLES = frozenset({"rad", "1", "°", "deg"})
-SOON, AT_ONCE = 3.0, 0.9  # seconds for what is interpreted: where one waits, where others wait, too
+# Seconds for what is interpreted: where one waits, where others wait, too, and where that is quicker than compiling.
+SOON, AT_ONCE, MEANWHILE = 3.0, 0.9, 25.0
 LARGEST = float(np.finfo(np.float64).max) / 16  # of a number in an answer: differences of energies are numbers, too
 
 
@@ -51,16 +52,23 @@ def run(document: Mapping[str, object]) -> Document:
     return soonest(partial(_run, document), SOON)
 
 
-def run_at_once(document: Mapping[str, object], *, is_loaded: bool = False) -> Document | None:
-    """The same by kernels that are interpreted where they are not compiled; None if that takes too long.
+def run_at_once(document: Mapping[str, object]) -> Document | None:
+    """The same by kernels that are interpreted where they are not compiled; None if that takes too long."""
+    return _interpreted(document, AT_ONCE)
 
-    Those that are compiled are interpreted as well in a process that has run none, unless what runs them is to be
-    loaded first.
+
+def run_meanwhile(document: Mapping[str, object]) -> Document | None:
+    """The same by the kernels that are compiled, what runs them being loaded first; the others are interpreted longer.
+
+    None if even that takes longer than their compilation.
     """
-    if is_loaded:
-        import_module(MACHINE)
+    import_module(MACHINE)
+    return _interpreted(document, MEANWHILE)
+
+
+def _interpreted(document: Mapping[str, object], seconds: float) -> Document | None:
     with suppress(MachineCodeNeededError):
-        return interpreted(partial(_run, document), AT_ONCE)
+        return interpreted(partial(_run, document), seconds)
     return None
 
 
