@@ -4,8 +4,8 @@ A step's coefficients are found order by order. All sums Σ uⱼ vₖ₋ⱼ of a
 of different operations are computed side by side in the lanes of vectors; their operands stand side by side in memory,
 wherever they are needed. Where several motions run side by side, the lanes are theirs.
 
-Of a sum the two ends, u₁ vₖ₋₁ and uₖ₋₁ v₁, come last, and what was found just before is not read from memory for them:
-the rest of the sum then waits for nothing of the order before, and a processor computes it meanwhile.
+Of a sum the two ends, u₁ vₖ₋₁ and uₖ₋₁ v₁, come last. Of few sums they are found one by one, from what was found just
+before, which is not read from memory then: the rest waits for nothing of the order before, and is computed meanwhile.
 """
 
 from __future__ import annotations
@@ -41,20 +41,11 @@ class Sums(Protocol):
         """The address of an order: all places of its coefficients are constants."""
 
     @property
-    def terms(self) -> tuple[Term, ...]:
-        """All sums, each once."""
+    def before(self) -> Sequence[Series]:
+        """Series whose coefficients of the order before are asked for, by `_name`."""
 
-    def write(self, code: Code, order: str, within: tuple[str, str], begin: str) -> list[str]:
-        """The sums of an order over j in a range; `begin` is the name of the block in which this is written."""
-
-    def ended(self, code: Code, order: str, inner: list[str], /) -> list[str]:
-        """What `write` returned, with both ends: u₁ vₖ₋₁ and then uₖ₋₁ v₁ (k > 2)."""
-
-    def each(self, code: Code, found: list[str], /) -> dict[Term, str]:
-        """Sum by sum what `write` and `ended` returned."""
-
-    def kind(self, code: Code) -> str:
-        """The type of what they return."""
+    def write(self, code: Code, order: str) -> dict[Term, str]:
+        """The sums of an order, from the block `order` to the beginning of the block `chain`."""
 
 
 @dataclass(frozen=True)
@@ -92,29 +83,35 @@ class OfOperations:
         """Whether their ends cost less one by one than it takes to wait until they stand side by side in memory."""
         return len(self.terms) <= FEW
 
-    def kind(self, code: Code) -> str:
-        return code.kind if self.are_few else Code(self.width).kind
+    @property
+    def before(self) -> Sequence[Series]:
+        return list(self.places) if self.are_few else []
 
-    def write(self, code: Code, order: str, within: tuple[str, str], begin: str) -> list[str]:
-        found = _loop(self._vector(code, "w"), order, within, begin, self._pairs)
-        return self._apart(code, found) if self.are_few else found
-
-    def ended(self, code: Code, order: str, inner: list[str]) -> list[str]:
+    def write(self, code: Code, order: str) -> dict[Term, str]:
+        found = _loop(self._vector(code), order, "order", self._pairs, has_ends=not self.are_few)
         if self.are_few:
-            first = {series: code.load("%work", places[0] + self.width) for series, places in self.places.items()}
-            return _ended(code, self.terms, first, inner)
-        vector, found = self._vector(code, "e"), []
-        one, before = vector.at("%work", 1), vector.at("%work", code.new(f"sub i64 {order}, 1"))
-        for (u, v), value in zip(self._pairs, inner, strict=True):
-            half = vector.multiply_add(vector.load(one, u), vector.load(before, v), value)
-            found.append(vector.multiply_add(vector.load(before, u), vector.load(one, v), half))
-        return found
+            found = self._ended(code, order, self._apart(code, found))
+        else:
+            _begin_chain(code)
+            found = self._apart(code, found)
+        return dict(zip(self.terms, found, strict=True))
 
-    def each(self, code: Code, found: list[str]) -> dict[Term, str]:
-        return dict(zip(self.terms, found if self.are_few else self._apart(code, found), strict=True))
+    def _ended(self, code: Code, order: str, inner: list[str]) -> list[str]:
+        """Sums with their ends, from u₁ and v₁, and from uₖ₋₁ and vₖ₋₁ as they were found; for k ≤ 2 there are none."""
+        code.do("br label %inner")
+        code.label("inner")
+        code.do(f"br i1 {code.new(f'icmp sgt i64 {order}, 2')}, label %ends, label %chain")
+        code.label("ends")
+        first, whole = {each: code.load("%work", at[0] + self.width) for each, at in self.places.items()}, []
+        for (u, v), value in zip(self.terms, inner, strict=True):
+            half = code.multiply_add(first[u], f"%{_name(v)}", value)
+            whole.append(code.multiply_add(f"%{_name(u)}", first[v], half))
+        _begin_chain(code)
+        pairs = zip(inner, whole, strict=True)
+        return [code.new(f"phi {code.kind} [ {one}, %inner ], [ {other}, %ends ]") for one, other in pairs]
 
-    def _vector(self, code: Code, prefix: str) -> Code:
-        return Code(self.width, code.lines, code.declared, prefix=prefix)
+    def _vector(self, code: Code) -> Code:
+        return Code(self.width, code.lines, code.declared, prefix="w")
 
     @property
     def _pairs(self) -> list[list[int]]:
@@ -147,23 +144,19 @@ class OfMotions:
     def row(self, code: Code, order: str) -> str:
         return code.at("%work", order)
 
-    def kind(self, code: Code) -> str:
-        return code.kind
+    @property
+    def before(self) -> Sequence[Series]:
+        return []
 
-    def each(self, _code: Code, found: list[str]) -> dict[Term, str]:
-        return dict(zip(self.terms, found, strict=True))
-
-    def ended(self, code: Code, _order: str, inner: list[str]) -> list[str]:
-        first = {series: code.load("%work", places[0] + 1) for series, places in self.places.items()}
-        return _ended(code, self.terms, first, inner)
-
-    def write(self, code: Code, order: str, within: tuple[str, str], begin: str) -> list[str]:
+    def write(self, code: Code, order: str) -> dict[Term, str]:
         found: dict[Term, str] = {}
+        begin = "order"
         for number, some in enumerate(_grouped(self.terms, TOGETHER)):
             pairs = [[self.places[series][0] for series in term] for term in some]
-            found |= dict(zip(some, _loop(code, order, within, begin, pairs, f"{number}"), strict=True))
+            found |= dict(zip(some, _loop(code, order, begin, pairs, f"{number}"), strict=True))
             begin = f"summed{number}"
-        return [found[term] for term in self.terms]
+        _begin_chain(code)
+        return found
 
 
 def _grouped(terms: Sequence[Term], most: int) -> list[list[Term]]:
@@ -181,42 +174,49 @@ def _grouped(terms: Sequence[Term], most: int) -> list[list[Term]]:
 
 
 def _loop(
-    code: Code, order: str, within: tuple[str, str], begin: str, pairs: Sequence[Sequence[int]], name: str = ""
+    code: Code, order: str, begin: str, pairs: Sequence[Sequence[int]], name: str = "", *, has_ends: bool = True
 ) -> list[str]:
-    """Σ uⱼ vₖ₋ⱼ, j in a range, for pairs of places of u₀ and v₀ in `work`; ends in the block `summed` + name."""
+    """Σ uⱼ vₖ₋ⱼ for pairs of places of u₀ and v₀ in `work`, from the block `begin` to the block `summed` + name.
+
+    First come 1 < j < k − 1 and then, if it `has_ends`, 1 and k − 1; for k = 2 in any case 1.
+    """
     zero, start = code.number(0.0), f"sum{name}"
     sums = [f"%s{name}.{i}" for i in range(len(pairs))]
     nexts = [f"%n{name}.{i}" for i in range(len(pairs))]
+    last = code.new(f"sub i64 {order}, 1")
+    is_second = code.new(f"icmp eq i64 {order}, 2")
+    inner = code.new(f"select i1 {is_second}, i64 2, i64 {code.new(f'sub i64 {order}, 2')}")
+    end = order if has_ends else inner
     code.do(f"br label %{start}")
     code.label(start)
-    code.do(f"%j{name} = phi i64 [ {within[0]}, %{begin} ], [ %jn{name}, %body{name} ]")
+    code.do(f"%i{name} = phi i64 [ 2, %{begin} ], [ %in{name}, %body{name} ]")
     for one, following in zip(sums, nexts, strict=True):
         code.do(f"{one} = phi {code.kind} [ {zero}, %{begin} ], [ {following}, %body{name} ]")
-    more = code.new(f"icmp slt i64 %j{name}, {within[1]}")
+    more = code.new(f"icmp sle i64 %i{name}, {end}")
     code.do(f"br i1 {more}, label %body{name}, label %summed{name}")
     code.label(f"body{name}")
-    ahead, back = code.at("%work", f"%j{name}"), code.at("%work", code.new(f"sub i64 {order}, %j{name}"))
+    is_last = code.new(f"icmp eq i64 %i{name}, {order}")
+    j = code.new(f"select i1 {is_last}, i64 {last}, i64 1")
+    is_inner = code.new(f"icmp slt i64 %i{name}, {last}")
+    j = code.new(f"select i1 {is_inner}, i64 %i{name}, i64 {j}")
+    ahead, back = code.at("%work", j), code.at("%work", code.new(f"sub i64 {order}, {j}"))
     for one, following, (u, v) in zip(sums, nexts, pairs, strict=True):
         found = code.multiply_add(code.load(ahead, u), code.load(back, v), one)
         code.do(f"{following} = bitcast {code.kind} {found} to {code.kind}")
-    code.do(f"%jn{name} = add i64 %j{name}, 1")
+    code.do(f"%in{name} = add i64 %i{name}, 1")
     code.do(f"br label %{start}")
     code.label(f"summed{name}")
     return sums
 
 
+def _begin_chain(code: Code) -> None:
+    code.do("br label %chain")
+    code.label("chain")
+
+
 def _name(series: Series) -> str:
     """What the coefficient of the order before is called."""
     return f"q{series[0]}{'k' if series[1] else ''}"
-
-
-def _ended(code: Code, terms: Sequence[Term], first: Mapping[Series, str], inner: Sequence[str]) -> list[str]:
-    """Sums with their ends, from u₁ and v₁, and from uₖ₋₁ and vₖ₋₁ as they were found."""
-    found = []
-    for (u, v), value in zip(terms, inner, strict=True):
-        half = code.multiply_add(first[u], f"%{_name(v)}", value)
-        found.append(code.multiply_add(f"%{_name(u)}", first[v], half))
-    return found
 
 
 @dataclass(frozen=True)
@@ -274,7 +274,7 @@ class _Writer:
         for d, value in enumerate(following):
             code.do(f"{now[d]} = phi {code.kind} [ {value}, %entry ], [ %xn{d}, %chain ]")
         code.do(f"%t = phi {code.kind} [ {unit}, %entry ], [ {code.number(0.0)}, %chain ]")
-        for name in map(_name, self.sums.places):
+        for name in map(_name, self.sums.before):
             code.do(f"%{name} = phi {code.kind} [ {code.number(0.0)}, %entry ], [ %{name}.n, %chain ]")
         self._order([*now[: 2 * r_.degrees], "%t"], now, begin, kept_, conditions, constants, unit)
 
@@ -323,7 +323,7 @@ class _Writer:
     ) -> None:
         """The block of order k: sums, operations, and the next coefficients of the state."""
         r_, code = self.recurrences, self.code
-        sums = self._sums()
+        sums = self.sums.write(code, "%k")
         order = code.spread(code.new("sitofp i64 %k to double"))
         inverse = code.divide(code.number(1.0), order)
         values = list(inputs)
@@ -368,24 +368,6 @@ class _Writer:
             factor = code.negative(factor)
         return code.multiply_add(factor, values[series], other)
 
-    def _sums(self) -> dict[Term, str]:
-        """The sums of order k, in a block named `chain`; for k = 2 there is one product, for k = 1 none."""
-        code = self.code
-        is_second = code.new("icmp eq i64 %k, 2")
-        begin = code.new(f"select i1 {is_second}, i64 1, i64 2")
-        end = code.new(f"select i1 {is_second}, i64 2, i64 {code.new('sub i64 %k, 1')}")
-        inner, kind = self.sums.write(code, "%k", (begin, end), "order"), self.sums.kind(code)
-        code.do("br label %inner")
-        code.label("inner")
-        code.do(f"br i1 {code.new('icmp sgt i64 %k, 2')}, label %ends, label %chain")
-        code.label("ends")
-        whole = self.sums.ended(code, "%k", inner)
-        code.do("br label %chain")
-        code.label("chain")
-        pairs = zip(inner, whole, strict=True)
-        found = [code.new(f"phi {kind} [ {one}, %inner ], [ {other}, %ends ]") for one, other in pairs]
-        return self.sums.each(code, found)
-
     def _end(self, state: list[str], values: list[str], unit: str) -> None:
         """What an order leaves: coefficients of the state and of conditions' arguments; and the next order, if any."""
         code = self.code
@@ -408,7 +390,8 @@ class _Writer:
                 kept_ = self.code.multiply(order, value) if times_order else value
                 for at in self.sums.places[series]:
                     self.code.store(kept_, row, at)
-                self.code.do(f"%{_name(series)}.n = bitcast {self.code.kind} {kept_} to {self.code.kind}")
+                if series in self.sums.before:
+                    self.code.do(f"%{_name(series)}.n = bitcast {self.code.kind} {kept_} to {self.code.kind}")
 
     def _integrated(self, state: list[str], values: list[str], unit: str, next_order: str) -> list[str]:
         """The next coefficients of the state: those of its derivative times H / (k + 1)."""
