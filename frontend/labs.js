@@ -111,6 +111,12 @@ function sceneFrom(initial, changed = {}) {
   return `/scene${place}${scene === OWN ? ownFragment : ""}`;
 }
 
+/** Where one's own scene is edited. */
+function editor() {
+  const { lang, theme } = get().place;
+  return `/scene${writePlace({ ...HOME, lang, theme, edit: "form" })}${ownFragment}`;
+}
+
 /** Simulates and plays what a chart points at; at the address it is open to all tools. @param {import("./model/labs/watch.js").Wish} wish @param {string} [address] */
 function watch(wish, address = "") {
   const { question, scene } = bench.get();
@@ -218,6 +224,7 @@ function update() {
         fetchFile: (accept) => void fetchFile(accept),
         link,
         open: (scene) => void open(scene),
+        editor,
         sceneFrom,
         watch,
         turn: (patch) => set({ dial: { ...get().dial, ...patch } }),

@@ -112,7 +112,7 @@ export const titleMenu = (label, title, select) => html`
 export const lettersOf = (title) => `--letters:${title.length}`;
 
 /** Into the editor with a copy of the scene, or with one's own; and out of it. @param {View} view */
-function pen({ state, session, editor, t }) {
+export function pen({ state, session, editor, t }) {
   const { edit, scene } = state.place;
   const label = t(edit ? "editor.leave" : scene === OWN ? "editor.open" : "editor.copy");
   const press = () => {

@@ -3,7 +3,7 @@
 import { html, nothing } from "lit-html";
 import { chapters, isAtEnd, missing, pager, steps } from "./steps.js";
 import { failure } from "./failure.js";
-import { header } from "./header.js";
+import { header, pen } from "./header.js";
 import { player } from "./player.js";
 import { caveats, report } from "./report.js";
 import { values } from "./values.js";
@@ -132,7 +132,14 @@ function trouble(view) {
   if (page) return failure(page, t("failure.page"), reload, t);
   if (scene?.status === 404) return unknownScene(view);
   if (scene) return failure(scene, t("failure.page"), reload, t, nearestMember(view));
-  return derivation && failure(derivation, t("failure.derivation"), reload, t);
+  return derivation && failure(derivation, t("failure.derivation"), reload, t, mending(view));
+}
+
+/** The way into the editor from one's own scene, which the service has refused. @param {View} view */
+function mending(view) {
+  if (view.state.place.scene !== OWN || !view.state.failures.derivation?.problems.length) return nothing;
+  const { label, press } = pen(view);
+  return html`<button class="main" @click=${press}>${label}</button>`;
 }
 
 /** The way to the nearest member there is of a family, where the address asks for another. @param {View} view */

@@ -118,7 +118,7 @@ RUN = '"scene": "pendulum", "t_end": 1'
         ),
         pytest.param(
             b'{"scene": "pendulum", "t_end": 0}',
-            invalid(problem("request-not-above", "The value must be greater than 0.0.", "/t_end")),
+            invalid(problem("request-not-above", "The value must be greater than 0.", "/t_end")),
             id="no time",
         ),
         pytest.param(

@@ -121,6 +121,45 @@ def test_bad_values_are_told_and_nothing_is_lost(lecture: Lecture) -> None:
     lecture.complaints.clear()
 
 
+def test_what_the_service_refuses_is_told_with_its_field(lecture: Lecture) -> None:
+    page = opened(lecture, "lab=basins&scene=pendulum").page
+    page.get_by_label("To the right", exact=True).fill("sinn(phi)")
+    page.locator("form.question button.main").click()
+    expect(page.locator(".failure li")).to_have_text(
+        ["To the right: There is no quantity “sinn(phi)” in this scene; there are phi, dot(phi)."]
+    )
+    lecture.complaints.clear()
+
+
+# Neither term is a force: two mistakes at one place.
+MISTAKEN = {
+    "format": 1, "id": "own", "coordinates": [{"name": "x", "value": 1, "unit": "m"}],
+    "parameters": [{"name": "m", "value": 1, "unit": "kg"}],
+    "bodies": [{"name": "p", "kind": "particle", "mass": "m", "position": ["x", "0"]}],
+    "loads": [{"kind": "force", "at": "p", "force": ["-m*x - m*dot(x)", "0"]}],
+}  # fmt: skip
+TOLD = [
+    "/loads/0/force/0 “-m*x” has the unit kg m; kg m s⁻² is needed here.",
+    "/loads/0/force/0 “- m*dot(x)” has the unit kg m s⁻¹; kg m s⁻² is needed here.",
+]
+
+
+@pytest.mark.parametrize("place", ["labs?lab=basins&scene=own", "scene?scene=own"])
+def test_mistakes_of_ones_own_scene_are_told_once_with_their_places(sources: Lecture, place: str) -> None:
+    page = sources.page
+    page.goto(f"{sources.address}scene?scene=pendulum&lang=en")
+    fragment = page.evaluate("scene => import('/model/own.js').then(own => own.fragmentOf(scene))", MISTAKEN)
+    page.goto(f"{sources.address}{place}&lang=en{fragment}")
+    if place.startswith("labs"):
+        page.locator("form.question button.main:enabled").click()
+    failure = page.locator("main .failure", has=page.get_by_text("Edit this scene"))
+    expect(failure.locator("li")).to_have_text(TOLD)
+    expect(failure.locator("p")).to_have_count(0)
+    failure.get_by_text("Edit this scene").click()
+    expect(page.locator(".editor [aria-invalid=true], .editor .wrong").first).to_be_visible()
+    sources.complaints.clear()
+
+
 @pytest.mark.one_in(2)
 @pytest.mark.parametrize("lang", ["de", "en"])
 def test_a_phone_shows_all_of_it(lecture: Lecture, lang: str) -> None:

@@ -17,7 +17,6 @@ from .equality import Parts
 from .reading import Reading, sums
 
 Told = tuple[str, dict[str, str]]
-RAISED = str.maketrans("0123456789-", "⁰¹²³⁴⁵⁶⁷⁸⁹⁻")
 
 
 def unlike_terms(reading: Reading, scene: Scene, syntax: Syntax) -> Told | None:
@@ -39,21 +38,16 @@ def other_unit(reading: Reading, right: Parts, scene: Scene) -> Told | None:
     for _, tree in reading.trees if expected else ():
         for found in map(check.of, sums(tree)):
             if expected and isinstance(found, Dimension) and not found.fits(expected):
-                return "other-unit", {"found": _raised(str(found)), "expected": _raised(str(expected))}
+                return "other-unit", {"found": str(found), "expected": str(expected)}
     return None
 
 
 def _told(problem: Problem, scene: Scene, syntax: Syntax) -> dict[str, str]:
-    """The term as a formula, the units with raised exponents."""
-    told = {key: _raised(str(value)) for key, value in problem.parameters.items()}
+    """The term as a formula."""
+    told = {key: str(value) for key, value in problem.parameters.items()}
     term = str(problem.parameters["term"])
     try:
         typeset = latex(to_sympy(parse(term, scene.names, syntax).tree, Symbols(scene.names)), Typography(scene.names))
     except ExpressionError:
         return told | {"term": f"“{term}”"}
     return told | {"term": formula(typeset)}
-
-
-def _raised(unit: str) -> str:
-    """kg m s^-2 → kg m s⁻²"""
-    return " ".join(base + exponent.translate(RAISED) for base, _, exponent in (w.partition("^") for w in unit.split()))

@@ -38,11 +38,19 @@ class Dimension:
 
     def __str__(self) -> str:
         powers = {"kg": self.mass, "m": self.length, "s": self.time, "A": self.current}
-        words = [unit if power == 1 else f"{unit}^{power}" for unit, power in powers.items() if power]
+        words = [unit + _raised(power) for unit, power in powers.items() if power]
         scale = [] if abs(self.scale - 1) < 1e-9 else [f"{self.scale:g}"]
         return " ".join(scale + words) or "1"
 
 
+def _raised(power: Fraction) -> str:
+    """As it is written at a unit: m, m², m⁻¹, m^(1/2)."""
+    if power.denominator != 1:
+        return f"^({power})"
+    return "" if power == 1 else str(power).translate(RAISED)
+
+
+RAISED = str.maketrans("0123456789-", "⁰¹²³⁴⁵⁶⁷⁸⁹⁻")
 ONE = Dimension()
 
 
@@ -72,13 +80,13 @@ UNITS: Mapping[str, Dimension] = {
     "T": _of(1, 0, -2, current=-1),
 }
 PREFIXES: Mapping[str, float] = {"": 1.0, "M": 1e6, "k": 1e3, "d": 1e-1, "c": 1e-2, "m": 1e-3, "µ": 1e-6, "μ": 1e-6}
-SUPERSCRIPTS = str.maketrans("⁰¹²³⁴⁵⁶⁷⁸⁹⁻", "0123456789-")
+LOWERED = {raised: digit for digit, raised in RAISED.items()}
 FACTOR = re.compile(r"([A-Za-zµμ°]+|1)(?:\^?\(?(-?\d)\)?)?")
 
 
 def dimension_of(unit: str) -> Dimension | None:
     """The dimension of a unit such as `kg`, `m/s^2`, `N m` or `kg·m²`; None if it is not given or not known."""
-    text = unit.translate(SUPERSCRIPTS).replace("·", " ").replace("*", " ").strip()
+    text = unit.translate(LOWERED).replace("·", " ").replace("*", " ").strip()
     numerator, *denominators = text.split("/")
     parts = [(numerator, 1), *((part.strip("() "), -1) for part in denominators)]
     found = ONE

@@ -7,6 +7,7 @@ section `errors`. The page reads the same catalogs.
 from __future__ import annotations
 
 import json
+import re
 from collections.abc import Mapping
 from functools import cache
 from importlib.resources import files
@@ -57,10 +58,15 @@ def keys(language: str, key: str) -> tuple[str, ...]:
 def filled(template: str, parameters: Mapping[str, object]) -> CatalogText:
     """The template with its {placeholders} put in, as words unless they are sentences or formulas of δq themselves."""
     pieces = (
-        literal + ("" if field is None else words(parameters.get(field, "")))
+        literal + ("" if field is None else words(_typed(parameters.get(field, ""))))
         for literal, field, _, _ in Formatter().parse(template)
     )
     return CatalogText("".join(pieces))
+
+
+def _typed(value: object) -> object:
+    """A number as one types it: 0 for 0.0, and 1e-6 for 1e-06."""
+    return re.sub(r"e([+-])0*", r"e\1", repr(value).removesuffix(".0")) if isinstance(value, float) else value
 
 
 def sentence(language: str, problem: Problem) -> CatalogText:

@@ -48,7 +48,7 @@ function sceneOf({ bench, benches, scenes, t, state }) {
 }
 
 /** The text of an option; the service's own sentence where the page has none. @param {View} view @param {Option} option */
-function labelOf({ t }, { label, description }) {
+export function labelOf({ t }, { label, description }) {
   const text = t(`labs.${label}`);
   return text === `labs.${label}` ? (description ?? text) : text;
 }

@@ -3,13 +3,14 @@
 import { html, nothing } from "lit-html";
 import { repeat } from "lit-html/directives/repeat.js";
 import { roughly, significant } from "../../model/numbers.js";
-import { failure } from "../failure.js";
+import { failure, inScene } from "../failure.js";
 import { inLanguage } from "../../model/catalog.js";
+import { OWN } from "../../model/own.js";
 import { addEntry, addTool, titleOfPlace } from "../lectures/adding.js";
 import { titled, top } from "../top.js";
 import { bifurcations } from "./bifurcations.js";
 import { canvas } from "./cursor.js";
-import { form } from "./form.js";
+import { form, labelOf } from "./form.js";
 import { motion } from "./motion.js";
 import { orbits } from "./orbits.js";
 import { rungs } from "./rungs.js";
@@ -23,7 +24,7 @@ import { tolerance } from "./tolerance.js";
  *   labs: string[], known: import("../../model/labs/experiments.js").Experiments, t: import("../page.js").View["t"], methodTitle: (id: string) => string, charts: Chart[], dial: Dial, turn: (patch: Partial<Dial>) => void,
  *   save: (chart: Chart, format: "png" | "svg") => void, fetchFile: (accept: string) => void,
  *   play: Play | null, watch: (patch: object) => void, link: (patch: object) => string, open: (scene: import("../../model/own.js").SceneDocument) => void,
- *   sceneFrom: (initial: import("../../model/values.js").Changes["initial"], parameters?: Record<string, number>) => string,
+ *   editor: () => string, sceneFrom: (initial: import("../../model/values.js").Changes["initial"], parameters?: Record<string, number>) => string,
  *   cursor: Cursor | null, point: (cursor: Cursor) => void, press: (chart: Chart, x: number, y: number, curve?: number) => void}} View
  * @typedef {import("./cursor.js").Cursor} Cursor
  * @typedef {{tolerance: number, step: number}} Dial  where the sliders stand: wanted error, step h in seconds
@@ -49,11 +50,28 @@ export function page(view) {
       <div class="measured" id="measured" tabindex="-1" aria-busy=${String(bench.running)}>
         <p class="purpose">${t(`labs.experiments.${bench.question.lab}.summary`)}</p>
         ${progress(view)}
-        ${bench.failure ? failure(bench.failure, t("labs.failed"), view.benches.start, t) : nothing}
+        ${bench.failure ? failure(bench.failure, t("labs.failed"), view.benches.start, t, mending(view), placeOf(view)) : nothing}
         ${bench.charts.length ? charts(view) : bench.running || bench.failure ? nothing : invitation(view)}
         ${motion(view)}
       </div>
     </main>`;
+}
+
+/** The field of the form that a problem is about, else its place in the scene. @param {View} view */
+const placeOf = (view) => (/** @type {string} */ pointer) => {
+  const { question } = view.bench;
+  const [, member] = pointer.split("/");
+  const option = view.known.experiment(question.lab).options.find(({ name, asked }) => {
+    return member in asked(/** @type {never} */ (question[name]));
+  });
+  return option ? html`<b>${labelOf(view, option)}:</b>` : inScene(pointer);
+};
+
+/** The way into the editor from one's own scene, in which there are problems. @param {View} view */
+function mending({ bench, editor, t }) {
+  const isOwn =
+    bench.question.scene === OWN && bench.failure?.problems.some(({ pointer }) => pointer.startsWith("/scene/"));
+  return isOwn ? html`<a class="main" href=${editor()}>${t("editor.open")}</a>` : nothing;
 }
 
 /** Where the labs do not all fit beside each other, the open one is in sight. @param {Element} root */
