@@ -46,7 +46,7 @@ def at_equation(code: str, offset: int, length: int, **parameters: str) -> tuple
 
 
 WRONG = [
-    pytest.param([equation("x^2 = l")], at_equation("inconsistent-units", 6, 1, term="l", found="m", expected="m^2")),
+    pytest.param([equation("x^2 = l")], at_equation("inconsistent-units", 6, 1, term="l", found="m", expected="m²")),
     pytest.param([equation("x + dot(x)^2*l = 0")], at_equation("constraint-not-linear", 4, 8, term="dot(x)^2")),
     pytest.param([equation("dot(y)/dot(x) = 1")], at_equation("constraint-not-linear", 0, 13, term="dot(y)/dot(x)")),
     pytest.param([equation("l + sin(dot(x)) = 0")], at_equation("constraint-not-linear", 4, 11, term="sin(dot(x))")),
