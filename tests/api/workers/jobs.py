@@ -52,6 +52,11 @@ def simulate_on_new_machine(document: Any) -> Any:
         return simulate_at_once(document)
 
 
+def simulate_longer_on_new_machine(document: Any) -> Any:
+    """The same, as often as the service tries."""
+    return simulate_on_new_machine(document)
+
+
 def sleep(document: Any) -> Any:
     time.sleep(document)
     return {"slept": document}

@@ -29,6 +29,8 @@ def load() -> None:
     for language in LANGUAGES:
         with suppress(Exception):
             import_module("deltaq.narration.derive").derive_request({"scene": SCENE, "lang": language})
+    with suppress(Exception):  # which has the tightest bound of a processor of all jobs
+        import_module("deltaq.narration.expressions").typeset_request({"scene": SCENE, "expression": "sin(t)"})
     with suppress(Exception):
         service = import_module("deltaq.simulation.service")
         if are_compiled():  # compiling them here would keep all workers waiting
