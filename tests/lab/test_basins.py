@@ -162,6 +162,7 @@ def test_a_rest_inside_of_a_limit_cycle_has_the_disc_between_them() -> None:
     assert cycle["contraction"] == pytest.approx(math.exp(-12.0 * 0.02), rel=1e-3)
     assert rest["contraction"] == pytest.approx(math.exp(-2.0 * 0.02), rel=1e-3)
     assert (found["unsettled"], rest["period"]) == (0.0, None)
+    assert rest["state"]["x"] == {"value": 0.0, "rate": 0.0}  # and not what is left of it after so many seconds
 
 
 @pytest.mark.parametrize(("torque", "kinds"), [(0.35, {False, True}), (0.2, {False})])

@@ -50,6 +50,11 @@ class _Map:
         found[:, list(self.places)] = self.low + points * (self.high - self.low)
         return found
 
+    @property
+    def size(self) -> float:
+        """Its larger side."""
+        return float((self.high - self.low).max())
+
     def side(self, axis: int, count: int) -> Floats:
         """The values along a side: the middles of so many cells."""
         return np.asarray(self.low[axis] + (np.arange(count) + 0.5) / count * (self.high[axis] - self.low[axis]))
@@ -191,7 +196,7 @@ def _told(request: BasinsRequest, subject: Subject, chart: _Map, search: Search,
         "y": {"quantity": chart.names[1], "values": rounded(chart.side(1, count))},
         "basins": [[None if one == UNKNOWN else max(one, NONE) for one in row] for row in rows],
         "attractors": [
-            _attractor(subject, search.stroboscope, one, int((found.basins == number).sum()), total)
+            _attractor(subject, search.stroboscope, one, chart.size, (int((found.basins == number).sum()), total))
             for number, one in enumerate(search.attractors)
         ],
         "confidence": CONFIDENCE,
@@ -202,11 +207,15 @@ def _told(request: BasinsRequest, subject: Subject, chart: _Map, search: Search,
     }
 
 
-def _attractor(subject: Subject, stroboscope: Stroboscope, found: Attractor, hits: int, total: int) -> Document:
+def _attractor(
+    subject: Subject, stroboscope: Stroboscope, found: Attractor, size: float, shares: tuple[int, int]
+) -> Document:
+    """Where it is, to the last digits of the map's `size`, and the number of starts that come to it, of all."""
+    hits, total = shares
     n, free = subject.problem.degrees, [coordinate.name for coordinate in subject.scene.free]
     state, seconds = found.states[0], found.seconds
     state = stroboscope.apart(state, np.zeros_like(state))  # angles without whole turns
-    state = np.where(np.abs(state) > 1e-12 * np.abs(state).max(), state, 0.0)
+    state = np.where(np.abs(state) > 1e-12 * max(size, float(np.abs(state).max())), state, 0.0)
     return {
         "state": {
             name: {"value": significant(float(state[i]), 6), "rate": significant(float(state[n + i]), 6)}
