@@ -6,11 +6,12 @@ wherever they are needed. Where several motions run side by side, the lanes are 
 
 Of a sum the two ends, u₁ vₖ₋₁ and uₖ₋₁ v₁, come last. Of few sums they are found one by one, from what was found just
 before, which is not read from memory then: the rest waits for nothing of the order before, and is computed meanwhile.
+All coefficients of an order stand together in memory, so that each pass of that loop reads two runs of neighbours.
 """
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any, Protocol
@@ -24,6 +25,9 @@ from .shape import Shape
 
 TOGETHER = 5  # sums in one loop, whose parts have to stay in registers
 FEW = 12  # sums of one motion whose ends are found one by one
+
+Factors = tuple[str, str]
+End = Callable[[Code, int], Factors]  # what is multiplied at an end of the sum with this number
 
 
 class Sums(Protocol):
@@ -60,21 +64,23 @@ class OfOperations:
         return -(-len(self.terms) // self.width)
 
     @property
-    def size(self) -> int:
-        return 2 * self.groups * MOST_ORDERS * self.width
+    def stride(self) -> int:
+        """Vectors of one order: of each group those of u and those of v."""
+        return 2 * self.groups
 
-    def _base(self, group: int, side: int) -> int:
-        return (2 * group + side) * MOST_ORDERS * self.width
+    @property
+    def size(self) -> int:
+        return self.stride * MOST_ORDERS * self.width
 
     def row(self, code: Code, order: str) -> str:
-        return code.new(f"getelementptr inbounds <{self.width} x double>, ptr %work, i64 {order}")
+        return _row(code, order, self.stride * self.width)
 
     @cached_property
     def places(self) -> Mapping[Series, Sequence[int]]:
         found: dict[Series, list[int]] = {}
         for number, term in enumerate(self.terms):
             for side, series in enumerate(term):
-                place = self._base(number // self.width, side) + number % self.width
+                place = (2 * (number // self.width) + side) * self.width + number % self.width
                 found.setdefault(series, []).append(place)
         return found
 
@@ -88,34 +94,31 @@ class OfOperations:
         return list(self.places) if self.are_few else []
 
     def write(self, code: Code, order: str) -> dict[Term, str]:
-        found = _loop(self._vector(code), order, "order", self._pairs, has_ends=not self.are_few)
-        if self.are_few:
-            found = self._ended(code, order, self._apart(code, found))
-        else:
+        if not self.terms:
             _begin_chain(code)
-            found = self._apart(code, found)
+            return {}
+        wide, pairs = self._vector(code), [(2 * group, 2 * group + 1) for group in range(self.groups)]
+        inner = _inner(wide, order, self.stride, pairs)
+        if self.are_few:
+            found = _ended(code, order, self._apart(code, inner), self._first, self._second)
+        else:
+            found = self._apart(wide, _ended(wide, order, inner, *_ends(wide, order, self.stride, pairs)))
+        _begin_chain(code)
         return dict(zip(self.terms, found, strict=True))
 
-    def _ended(self, code: Code, order: str, inner: list[str]) -> list[str]:
-        """Sums with their ends, from u₁ and v₁, and from uₖ₋₁ and vₖ₋₁ as they were found; for k ≤ 2 there are none."""
-        code.do("br label %inner")
-        code.label("inner")
-        code.do(f"br i1 {code.new(f'icmp sgt i64 {order}, 2')}, label %ends, label %chain")
-        code.label("ends")
-        first, whole = {each: code.load("%work", at[0] + self.width) for each, at in self.places.items()}, []
-        for (u, v), value in zip(self.terms, inner, strict=True):
-            half = code.multiply_add(first[u], f"%{_name(v)}", value)
-            whole.append(code.multiply_add(f"%{_name(u)}", first[v], half))
-        _begin_chain(code)
-        pairs = zip(inner, whole, strict=True)
-        return [code.new(f"phi {code.kind} [ {one}, %inner ], [ {other}, %ends ]") for one, other in pairs]
+    def _first(self, code: Code, number: int) -> Factors:
+        u, v = self.terms[number]
+        return self._of_order_1(code, u), f"%{_name(v)}"
+
+    def _second(self, code: Code, number: int) -> Factors:
+        u, v = self.terms[number]
+        return f"%{_name(u)}", self._of_order_1(code, v)
+
+    def _of_order_1(self, code: Code, series: Series) -> str:
+        return code.load("%work", self.stride * self.width + self.places[series][0])
 
     def _vector(self, code: Code) -> Code:
         return Code(self.width, code.lines, code.declared, prefix="w")
-
-    @property
-    def _pairs(self) -> list[list[int]]:
-        return [[(2 * group + side) * MOST_ORDERS for side in (0, 1)] for group in range(self.groups)]
 
     def _apart(self, code: Code, found: list[str]) -> list[str]:
         kind = Code(self.width).kind
@@ -135,14 +138,14 @@ class OfMotions:
     @cached_property
     def places(self) -> Mapping[Series, Sequence[int]]:
         every = dict.fromkeys(series for term in self.terms for series in term)
-        return {series: (number * MOST_ORDERS,) for number, series in enumerate(every)}
+        return {series: (number,) for number, series in enumerate(every)}
 
     @property
     def size(self) -> int:
         return len(self.places) * MOST_ORDERS * self.lanes
 
     def row(self, code: Code, order: str) -> str:
-        return code.at("%work", order)
+        return _row(code, order, len(self.places))
 
     @property
     def before(self) -> Sequence[Series]:
@@ -150,11 +153,13 @@ class OfMotions:
 
     def write(self, code: Code, order: str) -> dict[Term, str]:
         found: dict[Term, str] = {}
-        begin = "order"
+        begin, stride = "order", len(self.places)
         for number, some in enumerate(_grouped(self.terms, TOGETHER)):
-            pairs = [[self.places[series][0] for series in term] for term in some]
-            found |= dict(zip(some, _loop(code, order, begin, pairs, f"{number}"), strict=True))
-            begin = f"summed{number}"
+            pairs = [(self.places[u][0], self.places[v][0]) for u, v in some]
+            inner = _inner(code, order, stride, pairs, begin, f"{number}")
+            whole = _ended(code, order, inner, *_ends(code, order, stride, pairs), f"{number}")
+            found |= dict(zip(some, whole, strict=True))
+            begin = f"ended{number}"
         _begin_chain(code)
         return found
 
@@ -173,40 +178,61 @@ def _grouped(terms: Sequence[Term], most: int) -> list[list[Term]]:
     return groups
 
 
-def _loop(
-    code: Code, order: str, begin: str, pairs: Sequence[Sequence[int]], name: str = "", *, has_ends: bool = True
-) -> list[str]:
-    """Σ uⱼ vₖ₋ⱼ for pairs of places of u₀ and v₀ in `work`, from the block `begin` to the block `summed` + name.
+def _row(code: Code, order: str, stride: int) -> str:
+    """The address of an order, of so many numbers."""
+    return code.new(f"getelementptr [{stride} x {code.kind}], ptr %work, i64 {order}")
 
-    First come 1 < j < k − 1 and then, if it `has_ends`, 1 and k − 1; for k = 2 in any case 1.
-    """
+
+def _inner(
+    code: Code, order: str, stride: int, pairs: Sequence[tuple[int, int]], begin: str = "order", name: str = ""
+) -> list[str]:
+    """Σ uⱼ vₖ₋ⱼ, 1 < j < k − 1, for pairs of places in an order, from the block `begin` to the one `summed` + name."""
     zero, start = code.number(0.0), f"sum{name}"
     sums = [f"%s{name}.{i}" for i in range(len(pairs))]
     nexts = [f"%n{name}.{i}" for i in range(len(pairs))]
-    last = code.new(f"sub i64 {order}, 1")
-    is_second = code.new(f"icmp eq i64 {order}, 2")
-    inner = code.new(f"select i1 {is_second}, i64 2, i64 {code.new(f'sub i64 {order}, 2')}")
-    end = order if has_ends else inner
+    first, last = _row(code, "2", stride), _row(code, code.new(f"sub i64 {order}, 2"), stride)
     code.do(f"br label %{start}")
     code.label(start)
-    code.do(f"%i{name} = phi i64 [ 2, %{begin} ], [ %in{name}, %body{name} ]")
+    code.do(f"%ahead{name} = phi ptr [ {first}, %{begin} ], [ %farther{name}, %body{name} ]")
+    code.do(f"%back{name} = phi ptr [ {last}, %{begin} ], [ %nearer{name}, %body{name} ]")
     for one, following in zip(sums, nexts, strict=True):
         code.do(f"{one} = phi {code.kind} [ {zero}, %{begin} ], [ {following}, %body{name} ]")
-    more = code.new(f"icmp sle i64 %i{name}, {end}")
-    code.do(f"br i1 {more}, label %body{name}, label %summed{name}")
+    code.do(f"br i1 {code.new(f'icmp ule ptr %ahead{name}, {last}')}, label %body{name}, label %summed{name}")
     code.label(f"body{name}")
-    is_last = code.new(f"icmp eq i64 %i{name}, {order}")
-    j = code.new(f"select i1 {is_last}, i64 {last}, i64 1")
-    is_inner = code.new(f"icmp slt i64 %i{name}, {last}")
-    j = code.new(f"select i1 {is_inner}, i64 %i{name}, i64 {j}")
-    ahead, back = code.at("%work", j), code.at("%work", code.new(f"sub i64 {order}, {j}"))
     for one, following, (u, v) in zip(sums, nexts, pairs, strict=True):
-        found = code.multiply_add(code.load(ahead, u), code.load(back, v), one)
+        found = code.multiply_add(code.load(f"%ahead{name}", u), code.load(f"%back{name}", v), one)
         code.do(f"{following} = bitcast {code.kind} {found} to {code.kind}")
-    code.do(f"%in{name} = add i64 %i{name}, 1")
+    code.do(f"%farther{name} = getelementptr [{stride} x {code.kind}], ptr %ahead{name}, i64 1")
+    code.do(f"%nearer{name} = getelementptr [{stride} x {code.kind}], ptr %back{name}, i64 -1")
     code.do(f"br label %{start}")
     code.label(f"summed{name}")
     return sums
+
+
+def _ends(code: Code, order: str, stride: int, pairs: Sequence[tuple[int, int]]) -> tuple[End, End]:
+    """The ends of sums, from memory."""
+    first, last = _row(code, "1", stride), _row(code, code.new(f"sub i64 {order}, 1"), stride)
+    return (
+        lambda code, i: (code.load(first, pairs[i][0]), code.load(last, pairs[i][1])),
+        lambda code, i: (code.load(last, pairs[i][0]), code.load(first, pairs[i][1])),
+    )
+
+
+def _ended(code: Code, order: str, inner: Sequence[str], first: End, second: End, name: str = "") -> list[str]:
+    """Sums with u₁ vₖ₋₁ for k > 1 and uₖ₋₁ v₁ for k > 2, from the block `summed` + name to the block `ended` + name."""
+    half, whole = f"half{name}", f"whole{name}"
+    code.do(f"br i1 {code.new(f'icmp sgt i64 {order}, 1')}, label %{half}, label %ended{name}")
+    code.label(half)
+    halves = [code.multiply_add(*first(code, i), one) for i, one in enumerate(inner)]
+    code.do(f"br i1 {code.new(f'icmp sgt i64 {order}, 2')}, label %{whole}, label %ended{name}")
+    code.label(whole)
+    wholes = [code.multiply_add(*second(code, i), one) for i, one in enumerate(halves)]
+    code.do(f"br label %ended{name}")
+    code.label(f"ended{name}")
+    return [
+        code.new(f"phi {code.kind} [ {a}, %summed{name} ], [ {b}, %{half} ], [ {c}, %{whole} ]")
+        for a, b, c in zip(inner, halves, wholes, strict=True)
+    ]
 
 
 def _begin_chain(code: Code) -> None:
