@@ -14,7 +14,6 @@ from .kernels import are_compiled
 from .limits import die_with_parent
 
 SCENE = "pendulum"
-LANGUAGES = ("en", "de")  # each has texts to be read from files
 
 
 def load() -> None:
@@ -26,9 +25,12 @@ def load() -> None:
     gc.disable()  # nearly all that is made here stays
     with suppress(Exception):
         import_module("deltaq.api.jobs")
-    for language in LANGUAGES:
-        with suppress(Exception):
-            import_module("deltaq.narration.derive").derive_request({"scene": SCENE, "lang": language})
+    with suppress(Exception):
+        import_module("deltaq.narration.derive").derive_request({"scene": SCENE})
+    with suppress(Exception):
+        catalogs = import_module("deltaq.narration.catalog")
+        for language in catalogs.LANGUAGES:
+            catalogs.catalog(language)  # texts to be read from files
     with suppress(Exception):  # which has the tightest bound of a processor of all jobs
         import_module("deltaq.narration.expressions").typeset_request({"scene": SCENE, "expression": "sin(t)"})
     with suppress(Exception):
