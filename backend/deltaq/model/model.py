@@ -83,19 +83,16 @@ class Model:
     from keeping them: g of the holonomic ones, then w = A q̇ + b of all.
     `observed` gives E, V, values and rates of guided coordinates, positions and force vectors; `events`, of scenes that
     have any, what is positive as long as none has happened; `switches`, of those with dry friction, what changes its
-    sign where a force jumps with a rate. `tape` has the operations of M and f, of the values of
-    guided coordinates and of their rates, of A and γ.
+    sign where a force jumps with a rate. `eqs` are what all of it was made of.
     """
 
     layout: Layout
     motion: Compiled
-    observed: Compiled
     events: Compiled | None
     switches: Compiled | None
     gaps: Compiled | None
-    tape: Tape = field(repr=False, compare=False)
+    eqs: Equations = field(repr=False, compare=False)
     scene: Scene = field(repr=False, compare=False)
-    disturbance: float = 0.0  # relative, of every entry of M and f
     of: Callable[[Scene], Equations] = field(default=equations, repr=False, compare=False)
     usage: Usage = field(default_factory=Usage, init=False, repr=False, compare=False)
     _made: dict[Hashable, object] = field(default_factory=dict, init=False, repr=False, compare=False)
@@ -104,10 +101,24 @@ class Model:
     )
 
     @cached_property
+    def observed(self) -> Compiled:
+        """E, V and what is drawn; made when first asked for, as all that follows. Raises SceneError as `build` does."""
+        eqs = self.eqs
+        vectors = [*eqs.positions.values(), *eqs.arrows.values()]
+        seen = [eqs.kinetic, eqs.potential, *_guided(eqs), *(x for vector in vectors for x in vector)]
+        return compile_expressions(eqs.symbols.inputs, seen)
+
+    @cached_property
+    def tape(self) -> Tape:
+        """The operations of M and f, of the values of guided coordinates and of their rates, of A and γ."""
+        eqs, held = self.eqs, self.eqs.constraints
+        outputs = [*_triangle(eqs), *eqs.forcing, *_guided(eqs), *_rows(held), *held.accelerations]
+        return tape_of(eqs.symbols.inputs, outputs)
+
+    @cached_property
     def thorough(self) -> Compiled:
-        """The same as `motion`, in machine code whose compilation pays in long runs; made when first asked for."""
-        eqs = self._equations
-        return compile_expressions(eqs.symbols.inputs, of_motion(eqs), THOROUGH)
+        """The same as `motion`, in machine code whose compilation pays in long runs."""
+        return compile_expressions(self.eqs.symbols.inputs, of_motion(self.eqs), THOROUGH)
 
     def solution(self, *, is_long: bool) -> CompiledSolution | None:
         """Where there are constraints, the motion solved for in symbols, in code as `motion` or as `thorough`."""
@@ -115,21 +126,16 @@ class Model:
 
     @cached_property
     def _quick_solution(self) -> CompiledSolution | None:
-        return compiled_solution(self._equations, QUICK)
+        return compiled_solution(self.eqs, QUICK)
 
     @cached_property
     def _thorough_solution(self) -> CompiledSolution | None:
-        return compiled_solution(self._equations, THOROUGH)
+        return compiled_solution(self.eqs, THOROUGH)
 
     @cached_property
     def disturbed(self) -> Model:
         """The same with every entry of M and f disturbed by about a thousand times its rounding error."""
-        return build(disturbed(self.of(self.scene), DISTURBANCE), self.scene, DISTURBANCE, self.of)
-
-    @property
-    def _equations(self) -> Equations:
-        found = self.of(self.scene)
-        return disturbed(found, self.disturbance) if self.disturbance else found
+        return build(disturbed(self.eqs, DISTURBANCE), self.scene, self.of)
 
     @property
     def is_in_modes(self) -> bool:
@@ -165,7 +171,7 @@ class Model:
     @cached_property
     def recurrences(self) -> Recurrences:
         """The model for Taylor series; made when a method first asks for them."""
-        eqs = self._equations
+        eqs = self.eqs
         inputs = eqs.symbols.inputs
         tape = shared_tape_of(inputs, of_motion(eqs), inputs[2 * self.layout.degrees + 1 :])
         return recurrences_of(tape, self.layout.degrees, is_powered=eqs.is_powered)
@@ -173,7 +179,7 @@ class Model:
     @cached_property
     def phase(self) -> PhaseSpace:
         """Momenta and their rates; compiled when a method first asks for them."""
-        return phase_space(self._equations)
+        return phase_space(self.eqs)
 
     def observe(self, inputs: Floats) -> Observation:
         """What is seen at each row of inputs, shape (samples, inputs)."""
@@ -229,10 +235,11 @@ def _compiled_once(mechanics: Mechanics) -> Model:
     return build(equations(mechanics.scene), mechanics.scene)
 
 
-def build(
-    eqs: Equations, scene: Scene, disturbance: float = 0.0, of: Callable[[Scene], Equations] = equations
-) -> Model:
-    """The model of a scene whose equations are at hand, compiled quickly; `of` tells how they are made of the scene."""
+def build(eqs: Equations, scene: Scene, of: Callable[[Scene], Equations] = equations) -> Model:
+    """The model of a scene whose equations are at hand, compiled quickly; `of` tells how they are made of the scene.
+
+    Raises SceneError if one of them has no real value whatever the inputs.
+    """
     symbols = eqs.symbols
     switches, held = _switches(eqs), eqs.constraints
     layout = Layout(
@@ -248,21 +255,19 @@ def build(
         len(eqs.constraints.gaps),
         eqs.constraints.places,
     )
-    vectors = [*eqs.positions.values(), *eqs.arrows.values()]
-    seen = [value for value, _ in eqs.guided.values()] + [rate for _, rate in eqs.guided.values()]
-    observed = [eqs.kinetic, eqs.potential, *seen, *(x for vector in vectors for x in vector)]
-    return Model(
+    model = Model(
         layout,
         compile_expressions(symbols.inputs, of_motion(eqs)),
-        compile_expressions(symbols.inputs, observed),
         compile_expressions(symbols.inputs, eqs.events) if eqs.events else None,
         compile_expressions(symbols.inputs, switches) if switches else None,
         compile_expressions(symbols.inputs, [*held.gaps, *held.slips]) if held.slips else None,
-        tape_of(symbols.inputs, [*_triangle(eqs), *eqs.forcing, *seen, *_rows(held), *held.accelerations]),
+        eqs,
         scene,
-        disturbance,
         of,
     )
+    if eqs.guided:  # what a guide prescribes may stand nowhere else, and have no value
+        _ = model.observed
+    return model
 
 
 def of_motion(eqs: Equations) -> list[Expr]:
@@ -274,6 +279,11 @@ def of_motion(eqs: Equations) -> list[Expr]:
 def _rows(held: ConstraintEquations) -> list[Expr]:
     """A by rows."""
     return [entry for row in held.jacobian for entry in row]
+
+
+def _guided(eqs: Equations) -> list[Expr]:
+    """Values of guided coordinates, then their rates."""
+    return [value for value, _ in eqs.guided.values()] + [rate for _, rate in eqs.guided.values()]
 
 
 def _triangle(eqs: Equations) -> list[Expr]:

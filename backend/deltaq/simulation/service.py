@@ -103,7 +103,8 @@ def _simulated(request: Request, choice: Choice, problem: Problem, compile_time:
             with_error="error" in request.include,
         )
     states = np.hstack([trajectory.values, trajectory.rates])
-    seen = problem.model.observe(problem.inputs(trajectory.times, states))
+    with inside("/scene"):  # where something that is drawn has no value at all
+        seen = problem.model.observe(problem.inputs(trajectory.times, states))
     watts = power(problem, trajectory.times, states, trajectory.stretches)
     known, seen = _finite(trajectory, seen, watts)
     modes, moved = modes_of(request.scene), np.hstack([known.values, known.rates])

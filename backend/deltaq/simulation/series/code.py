@@ -9,17 +9,25 @@ from __future__ import annotations
 
 import ctypes
 import ctypes.util
+import re
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
-from functools import cache
+from functools import cache, lru_cache
+from itertools import count
 from threading import RLock
 from typing import Any
 
 import llvmlite.binding as llvm
 
+from ...model.recurrences import FUNCTIONS
+
 LIBRARY = "deltaq.math."  # before the names of functions of the C library
+MORE = ("pow", "atan2")  # of these
 QUICK, THOROUGH = 0, 2  # LLVM's effort: code that is there twice as soon, or that runs in a fifth of the time
 _LOCK = RLock()
+_CALLED = re.compile(rf'@"{re.escape(LIBRARY)}([^"]+)"')
+_NUMBERS = count()  # of libraries: each has a name of its own
+TOGETHER = 64  # libraries of one linker
 
 
 @dataclass
@@ -190,27 +198,37 @@ class Host:
     features: str
     has_fma: bool
     width: int  # doubles in one of its vectors
+    library: Mapping[str, int]  # where functions of the C library are
 
-    def machine(self, effort: int) -> Any:
-        """What writes code for it; each function needs its own."""
-        target = llvm.Target.from_default_triple()
-        return target.create_target_machine(cpu=self.name, features=self.features, opt=effort, jit=True)
+
+@cache
+def _machine(effort: int) -> Any:
+    """What writes code for this processor; to make it and to use it once takes as long as a small function."""
+    here, target = host(), llvm.Target.from_default_triple  # of which there is none before
+    return target().create_target_machine(cpu=here.name, features=here.features, opt=effort, jit=True)
+
+
+@lru_cache(1)
+def _linker(_number: int) -> Any:
+    """What brings code into memory, and out of it again; some kilobytes of each library go with the linker alone.
+
+    It stays as long as any of its libraries does.
+    """
+    return llvm.create_lljit_compiler()
 
 
 @cache
 def host() -> Host:
-    """This processor, with the C library's functions made known to the compiler."""
+    """This processor, with the C library's functions."""
     llvm.initialize_native_target()
     llvm.initialize_native_asmprinter()
     features = llvm.get_host_cpu_features()
     library = ctypes.CDLL(ctypes.util.find_library("m"))
-    names = ("exp", "log", "sin", "cos", "tan", "asin", "acos", "atan", "sinh", "cosh", "tanh")
-    for name in (*names, "asinh", "acosh", "atanh", "pow", "atan2"):
-        address = ctypes.cast(getattr(library, name), ctypes.c_void_p).value
-        llvm.add_symbol(LIBRARY + name, address)
+    addresses = {name: ctypes.cast(getattr(library, name), ctypes.c_void_p).value or 0 for name in (*FUNCTIONS, *MORE)}
     is_arm = llvm.get_default_triple().startswith(("aarch64", "arm64"))
     wide = 8 if features.get("avx512f") else 4 if features.get("avx2") else 2
-    return Host(llvm.get_host_cpu_name(), features.flatten(), bool(features.get("fma")) or is_arm, wide)
+    has_fma = bool(features.get("fma")) or is_arm
+    return Host(llvm.get_host_cpu_name(), features.flatten(), has_fma, wide, addresses)
 
 
 ARGUMENTS = "ptr %out, ptr %given, ptr noalias %work, ptr %program"  # of all functions that kernels call
@@ -220,7 +238,7 @@ ARGUMENTS = "ptr %out, ptr %given, ptr noalias %work, ptr %program"  # of all fu
 class MachineCode:
     """Compiled functions; their addresses are valid as long as this object lives."""
 
-    engine: Any
+    library: Any
     addresses: Mapping[str, int]
 
     @property
@@ -247,9 +265,19 @@ def compiled(
     with _LOCK:
         module = llvm.parse_assembly(text)
         module.triple = llvm.get_default_triple()
-        engine = llvm.create_mcjit_compiler(module, host().machine(effort))
-        engine.finalize_object()
-    return MachineCode(engine, {name: engine.get_function_address(name) for name in functions})
+        library = llvm.JITLibraryBuilder().add_object_img(_machine(effort).emit_object(module)).add_current_process()
+        for name in functions:
+            library.export_symbol(name)
+        for name in set(_CALLED.findall(text)):
+            library.import_symbol(LIBRARY + name, _address(name))
+        number = next(_NUMBERS)
+        linked = library.link(_linker(number // TOGETHER), f"deltaq.{number}")
+    return MachineCode(linked, {name: linked[name] for name in functions})
+
+
+def _address(name: str) -> int:
+    """Where a function is that code calls as LIBRARY + `name`."""
+    return _shared()[name].address if name in _shared() else host().library[name]
 
 
 def shared(name: str, make: Callable[[], MachineCode]) -> None:
@@ -257,7 +285,6 @@ def shared(name: str, make: Callable[[], MachineCode]) -> None:
     with _LOCK:
         if name not in _shared():
             _shared()[name] = make()
-            llvm.add_symbol(LIBRARY + name, _shared()[name].address)
 
 
 @cache
