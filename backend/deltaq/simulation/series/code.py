@@ -277,14 +277,18 @@ def compiled(
 
 def _address(name: str) -> int:
     """Where a function is that code calls as LIBRARY + `name`."""
-    return _shared()[name].address if name in _shared() else host().library[name]
+    return _shared()[name].addresses[name] if name in _shared() else host().library[name]
 
 
 def shared(name: str, make: Callable[[], MachineCode]) -> None:
-    """Has all code call a function as LIBRARY + `name`, made when it is first wanted and kept from then on."""
+    """Has all code call a function as LIBRARY + `name`, made when it is first wanted and kept from then on.
+
+    So are all others that are made with it.
+    """
     with _LOCK:
         if name not in _shared():
-            _shared()[name] = make()
+            made = make()
+            _shared().update(dict.fromkeys(made.addresses, made))
 
 
 @cache

@@ -11,7 +11,7 @@ All coefficients of an order stand together in memory, so that each pass of that
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any, Protocol
@@ -19,12 +19,13 @@ from typing import Any, Protocol
 from ...model import recurrences as r
 from ...model.recurrences import Recurrences, Series, Term
 from ..kernels.taylor import MOST_ORDERS
-from .code import THOROUGH, Code, MachineCode, compiled, host
+from .code import LIBRARY, QUICK, THOROUGH, Code, MachineCode, compiled, host, shared
 from .operations import COMPARISONS, Operands, first, kept, later
 from .shape import Shape
 
 TOGETHER = 5  # sums in one loop, whose parts have to stay in registers
 FEW = 12  # sums of one motion whose ends are found one by one
+USUAL = 4  # groups of sums of one motion; the loops for so many are made at once
 
 Factors = tuple[str, str]
 End = Callable[[Code, int], Factors]  # what is multiplied at an end of the sum with this number
@@ -58,6 +59,7 @@ class OfOperations:
 
     terms: tuple[Term, ...]
     width: int
+    is_called: bool = False  # whether the loop is a function that all code calls: in quick code it would be slow
 
     @property
     def groups(self) -> int:
@@ -70,7 +72,7 @@ class OfOperations:
 
     @property
     def size(self) -> int:
-        return self.stride * MOST_ORDERS * self.width
+        return (self.stride * MOST_ORDERS + self.groups) * self.width
 
     def row(self, code: Code, order: str) -> str:
         return _row(code, order, self.stride * self.width)
@@ -97,8 +99,8 @@ class OfOperations:
         if not self.terms:
             _begin_chain(code)
             return {}
-        wide, pairs = self._vector(code), [(2 * group, 2 * group + 1) for group in range(self.groups)]
-        inner = _inner(wide, order, self.stride, pairs)
+        wide, pairs = self._vector(code), _pairs(self.groups)
+        inner = self._called(wide, order) if self.is_called else _inner(wide, order, self.stride, pairs)
         if self.are_few:
             found = _ended(code, order, self._apart(code, inner), self._first, self._second)
         else:
@@ -116,6 +118,18 @@ class OfOperations:
 
     def _of_order_1(self, code: Code, series: Series) -> str:
         return code.load("%work", self.stride * self.width + self.places[series][0])
+
+    def _called(self, code: Code, order: str) -> list[str]:
+        """The inner sums by a function that leaves them behind the coefficients; it may be there from other models."""
+        name = _loop_of(self.width, self.groups)
+        shared(name, lambda: loops(self.width, range(1, USUAL + 1) if self.groups <= USUAL else (self.groups,)))
+        code.declared.add(f'declare void @"{LIBRARY}{name}"(ptr, i64, ptr)')
+        place = code.at("%work", self.stride * MOST_ORDERS)
+        code.do(f'call void @"{LIBRARY}{name}"(ptr %work, i64 {order}, ptr {place})')
+        found = [code.load(place, group) for group in range(self.groups)]
+        code.do("br label %summed")
+        code.label("summed")
+        return found
 
     def _vector(self, code: Code) -> Code:
         return Code(self.width, code.lines, code.declared, prefix="w")
@@ -162,6 +176,27 @@ class OfMotions:
             begin = f"ended{number}"
         _begin_chain(code)
         return found
+
+
+def loops(width: int, counts: Iterable[int]) -> MachineCode:
+    """The inner sums of some numbers of groups: void loop(work, order, out), the coefficients standing in `work`."""
+    made = {}
+    for groups in counts:
+        code = made[_loop_of(width, groups)] = Code(width, prefix="w")
+        code.label("order")
+        for group, value in enumerate(_inner(code, "%k", 2 * groups, _pairs(groups))):
+            code.store(value, "%out", group)
+        code.do("ret void")
+    return compiled(made, THOROUGH, given="ptr noalias %work, i64 %k, ptr noalias %out")
+
+
+def _loop_of(width: int, groups: int) -> str:
+    return f"sums.{width}.{groups}"
+
+
+def _pairs(groups: int) -> list[tuple[int, int]]:
+    """The vectors of u and v in an order of so many groups."""
+    return [(2 * group, 2 * group + 1) for group in range(groups)]
 
 
 def _grouped(terms: Sequence[Term], most: int) -> list[list[Term]]:
@@ -262,7 +297,8 @@ def jet_of(recurrences: Recurrences, lanes: int = 1, effort: int = THOROUGH) -> 
     """The code of some recurrences, for one motion or for so many side by side; any effort gives the same digits."""
     every = (t for i, each in enumerate(recurrences.operations) for t in each.sums(recurrences.inputs + i))
     terms = tuple(dict.fromkeys(every))
-    sums: Sums = OfOperations(terms, 8 if host().width >= 8 else 4) if lanes == 1 else OfMotions(terms, lanes)
+    width = 8 if host().width >= 8 else 4
+    sums: Sums = OfOperations(terms, width, effort == QUICK) if lanes == 1 else OfMotions(terms, lanes)
     shape = Shape.of(recurrences, lanes)
     writer = _Writer(recurrences, shape, sums, Code(lanes))
     writer.write()
