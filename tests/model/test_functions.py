@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+from fractions import Fraction
+
 import numpy as np
 import pytest
 import symengine as se
+from mpmath import mp
 
 from deltaq.language.functions import FUNCTIONS as LANGUAGE
-from deltaq.model.compiled import compile_expressions
+from deltaq.model.compiled import QUICK, THOROUGH, compile_expressions
 from deltaq.model.functions import FUNCTIONS
 
 POINT = {"acosh": (1.7,), "atan2": (0.4, -0.7), "max": (0.4, -0.7), "min": (0.4, -0.7)}
@@ -46,3 +49,22 @@ def test_value_and_derivative(name: str) -> None:
 def test_kinks(name: str, x: float, value: float) -> None:
     symbol = se.Symbol("x")
     assert compile_expressions([symbol], [FUNCTIONS[name](symbol)]).table(np.array([[x]]))[0, 0] == value
+
+
+@pytest.mark.parametrize("exponent", ["1/2", "-1/2", "3/2", "-3/2", "5/2", "-7/2", "1/3", "-4/3", "2", "-3", "9/4"])
+@pytest.mark.parametrize("x", [1e-3, 0.7, 1.0, 2.0, 3e5, 0.0, np.inf, -1.3])
+def test_powers(exponent: str, x: float) -> None:
+    """Within six units in the last place of the power at 40 digits, alone and beside others of the same base."""
+    base, part = se.Symbol("x"), Fraction(exponent)
+    power, root = base ** se.Rational(part.numerator, part.denominator), base ** se.Rational(1, 2)
+    outputs = [power, power * root + 1, 2 * (power - base) / root]
+    quick, thorough = (
+        compile_expressions([base], outputs, each).table(np.array([[x]]))[0] for each in (QUICK, THOROUGH)
+    )
+    np.testing.assert_array_equal(quick, thorough)
+    with mp.workdps(40):
+        known = mp.power(x, mp.mpf(part.numerator) / part.denominator) if x != 0.0 or part > 0 else mp.inf
+    if isinstance(known, mp.mpc) and known.imag != 0:
+        assert np.isnan(quick[0])
+    else:
+        assert quick[0] == pytest.approx(float(known.real), rel=6 * 2.0**-53)

@@ -19,6 +19,7 @@ Floats = NDArray[np.float64]
 
 # What LLVM does for its code: QUICK takes a third of the time to compile, THOROUGH two thirds of the time to run.
 QUICK, THOROUGH = 0, 3
+HALF = se.Rational(1, 2)
 
 
 @dataclass(frozen=True)
@@ -50,7 +51,22 @@ def compile_expressions(inputs: Sequence[Expr], outputs: Sequence[Expr], effort:
     Raises SceneError if one of them has no real value whatever the inputs.
     """
     try:
-        function = se.Lambdify(list(inputs), [list(outputs)], backend="llvm", cse=True, opt_level=effort)
+        function = se.Lambdify(list(inputs), [_with_roots(outputs)], backend="llvm", cse=True, opt_level=effort)
     except RuntimeError as error:  # a complex or infinite constant, 1/(x − x) or √(−1), say
         raise SceneError(Problem("not-computable", parameters={"detail": str(error)[:80]})) from None
     return Compiled(function, len(inputs), len(outputs))
+
+
+def _with_roots(outputs: Sequence[Expr]) -> list[Expr]:
+    """The same with (√x)³ for x to the power 3/2, and so on: roots and products are instructions, powers a function.
+
+    √x is positive, so that its absolute value, which costs nothing, keeps SymEngine from writing a power again.
+    """
+    powers = {power for each in outputs for power in se.sympify(each).atoms(se.Pow)}
+    roots = {
+        power: se.Abs(se.sqrt(base)) ** (2 * exponent)
+        for power in powers
+        for base, exponent in [power.args]
+        if exponent != HALF and (2 * exponent).is_Integer and not exponent.is_Integer
+    }
+    return [se.sympify(each).subs(roots) for each in outputs] if roots else list(outputs)
