@@ -23,6 +23,7 @@ def scene(
     weight: bool = True,
     dimension: int = 2,
     loads: Sequence[Document] = (),
+    events: Sequence[Document] = (),
 ) -> Scene:
     """A scene without units: coordinates with value and rate, parameters with values; weight along the last axis."""
     down = [*["0"] * (dimension - 1), "-g"]
@@ -40,6 +41,7 @@ def scene(
             "bodies": list(bodies),
             "loads": [*gravity, *loads],
             "constraints": list(constraints),
+            "events": list(events),
         }
     )
 

@@ -20,13 +20,15 @@ from .kernels.motion import Motion
 from .kernels.newmark import integrate_newmark
 from .kernels.newmark_step import NewmarkWeights, make_newmark_workspace
 from .kernels.phase import Phase
+from .kernels.rattle import make_held
 from .kernels.solved import constrained_finish
-from .kernels.splitting import SplitWeights, integrate_split, make_split_workspace
+from .kernels.split_step import SplitWeights, make_split_workspace
+from .kernels.splitting import integrate_split
 from .kernels.stages import ImplicitWeights
 from .kernels.step import Weights, make_workspace
 from .kernels.step_control import Control
 from .kernels.switch import Switch, make_switch
-from .kernels.system import SIGNS
+from .kernels.system import SIGNS, block_size
 from .kernels.taylor import integrate_series, make_series
 from .kernels.watch import NODES, NODES_OF_SERIES, Watch, make_watch, unwatched
 from .method import Newmark, Partitioned, Row, Scheme, Series, Tableau
@@ -73,7 +75,7 @@ def _explicit(scheme: Tableau, arguments: KernelArguments) -> Result:
 @run_kernel.register
 def _partitioned(scheme: Partitioned, arguments: KernelArguments) -> Result:
     problem = arguments.problem
-    if scheme.kicks and problem.model.phase.is_separable and not problem.is_constrained:
+    if is_split(scheme, problem):
         return _split(scheme, arguments)
     kicked = problem.model.layout.holonomic if is_kicked(scheme, problem) else 0
     phase = free_phase_of(problem) if is_kicked(scheme, problem) else phase_of(problem)
@@ -82,6 +84,14 @@ def _partitioned(scheme: Partitioned, arguments: KernelArguments) -> Result:
     return integrate_implicit(
         arguments.motion, phase, weights, arguments.control, arguments.watch, workspace, arguments.times, arguments.out
     )
+
+
+def is_split(scheme: Partitioned, problem: Problem) -> bool:
+    """Whether positions and momenta can be advanced in turn: with constraints in a single drift, if all have a g."""
+    layout = problem.model.layout
+    is_single = not problem.is_constrained or sum(drift != 0 for drift in scheme.drifts) == 1
+    is_held = layout.holonomic == len(layout.multipliers)
+    return bool(scheme.kicks) and problem.model.phase.is_separable and is_held and is_single
 
 
 def is_kicked(scheme: Scheme, problem: Problem) -> bool:
@@ -97,11 +107,13 @@ def is_kicked(scheme: Scheme, problem: Problem) -> bool:
 def _split(scheme: Partitioned, arguments: KernelArguments) -> Result:
     problem = arguments.problem
     weights = SplitWeights(floats(scheme.kicks), floats(scheme.drifts))
+    is_held = problem.is_constrained
+    memory = block(problem, is_long=arguments.is_long) if is_held else np.zeros(block_size(0, 0, 0, 0, 0))
     workspace = make_split_workspace(problem.state, problem.degrees)
     return integrate_split(
         arguments.motion,
-        phase_of(problem),
-        weights,
+        free_phase_of(problem),
+        (weights, make_held(memory, weights.kicks, weights.drifts)),
         arguments.control,
         arguments.watch,
         workspace,

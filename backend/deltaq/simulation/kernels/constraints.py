@@ -71,6 +71,12 @@ def factor_mass(system: System) -> float:
 
 
 @inline
+def scale(own: float) -> float:
+    """What brings an entry of a diagonal to 1; 0 where it is 0, or has lost its sign."""
+    return 1.0 / np.sqrt(own) if own > 0.0 else (0.0 if own <= 0.0 else np.nan)
+
+
+@inline
 def respond(system: System) -> int:
     """M factored, q̈ = M⁻¹f without reactions into `bends`, AM⁻¹ and the scaled AM⁻¹Aᵀ; returns the outcome."""
     n, m, outputs = system.head[DEGREES], system.head[COUNT], system.outputs
@@ -90,7 +96,7 @@ def respond(system: System) -> int:
         square = 0.0
         for i in range(n):
             square += outputs[rows + k * n + i] * system.responses[k * n + i]
-        system.scales[k] = 1.0 / np.sqrt(square) if square > 0.0 else (0.0 if square == 0.0 else np.nan)
+        system.scales[k] = scale(square)
     return FINE
 
 

@@ -18,6 +18,7 @@ from typing import NamedTuple
 import numpy as np
 
 from .compiler import inline
+from .constraints import scale
 from .linear import Indices, substitute
 from .motion import FINE, NOT_FINITE, Floats, Motion
 from .pointer import call
@@ -109,8 +110,7 @@ def weigh_kicks(system: System, weights: ImplicitWeights, h: float, n: int, kick
                     total += weights.b[i] * system.outputs[rows + k * n + d] * kicks.responses[j, i * n + d]
             kicks.share[k * count + j] = h * total
     for k in range(count):
-        own = kicks.share[k * count + k]
-        kicks.scales[k] = 1.0 / np.sqrt(own) if own > 0.0 else (0.0 if own <= 0.0 else np.nan)
+        kicks.scales[k] = scale(kicks.share[k * count + k])
     for k in range(count):
         for j in range(count):
             kicks.share[k * count + j] *= kicks.scales[k] * kicks.scales[j]
