@@ -11,8 +11,9 @@ import os
 import sys
 
 import numpy as np
-from tests.simulation.constrained import Document, G, double_pendulum, particle, scene
+from tests.simulation.constrained import Document, particle, scene
 
+from deltaq.mechanics.library import load_scene
 from deltaq.mechanics.scene import Scene
 from deltaq.simulation.library import get_method, method_ids
 from deltaq.simulation.method import Method
@@ -22,24 +23,26 @@ from deltaq.simulation.service import problem_of
 
 STEP, ROUNDS = 1e-3, 300
 EVALUATIONS = 5_000  # of a run, as many as its stages ask for: short, so that some runs are not interrupted
-LENGTHS = {"m1": 1.0, "m2": 0.5, "l1": 1.0, "l2": 0.7, "g": G}
 
 
 def on_rods() -> Scene:
     """Two particles in x₁, y₁, x₂, y₂ and two constraints."""
-    return double_pendulum((1.0, 0.5), (0.3, 0.2), LENGTHS)
+    return load_scene("double-pendulum-by-rods")
 
 
 def on_springs() -> Scene:
     """The same particles and places, with springs instead of the rods."""
+    rods = on_rods()
     ends: tuple[Document, ...] = (
         {"from": "pivot", "to": "upper", "rest_length": "l1"},
         {"from": "upper", "to": "lower", "rest_length": "l2"},
     )
-    springs = [{"name": f"spring{k}", "kind": "spring", "stiffness": "k", **end} for k, end in enumerate(ends)]
-    at = {coordinate.name: (coordinate.value, coordinate.rate) for coordinate in on_rods().coordinates}
+    loads = [{"name": f"spring{k}", "kind": "spring", "stiffness": "k", **end} for k, end in enumerate(ends)]
+    loads += [{"name": "weight", "kind": "gravity", "acceleration": ["0", "g"]}]
+    at = {coordinate.name: (coordinate.value, coordinate.rate) for coordinate in rods.coordinates}
+    values = {parameter.name: parameter.value for parameter in rods.parameters} | {"k": 50.0}
     bodies = [particle("upper", "x1", "y1", mass="m1"), particle("lower", "x2", "y2", mass="m2")]
-    return scene(at, LENGTHS | {"k": 50.0}, bodies, [], points={"pivot": ["0", "0"]}, loads=springs)
+    return scene(at, values, bodies, [], points={"pivot": ["0", "0"]}, loads=loads, weight=False)
 
 
 def seconds(problem: Problem, method: Method) -> float:
