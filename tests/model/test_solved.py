@@ -49,11 +49,14 @@ def test_accelerations_and_corrections_solve_their_linear_systems(scene: Scene) 
             continue
         both = np.linalg.solve(whole, np.concatenate([said[place : place + n], bend]))
         assert motion[place : place + n] == pytest.approx(both[:n], rel=1e-8, abs=1e-8)
-        responses, multiples = corrections[m * n : 2 * m * n].reshape(m, n), corrections[2 * m * n :]
+        responses = corrections[m * n : 2 * m * n].reshape(m, n)
+        moved, sped = corrections[2 * m * n :][: 2 * n].reshape(2, n)
         assert mass @ responses.T == pytest.approx(a.T, abs=1e-9)
-        along = responses[:holonomic].T @ multiples[:holonomic]
-        assert a[:holonomic] @ along == pytest.approx(off_by[:holonomic], rel=1e-8, abs=1e-8)
-        assert a @ responses.T @ multiples[holonomic : holonomic + m] == pytest.approx(off_by[holonomic:], abs=1e-8)
+        assert a[:holonomic] @ moved == pytest.approx(off_by[:holonomic], rel=1e-8, abs=1e-8)
+        assert a @ sped == pytest.approx(off_by[holonomic:], abs=1e-8)
+        for change, count in ((moved, holonomic), (sped, m)):
+            multiples = np.linalg.lstsq(a[:count].T, mass @ change, rcond=None)[0]
+            assert a[:count].T @ multiples == pytest.approx(mass @ change, abs=1e-8)
 
 
 @pytest.mark.parametrize(

@@ -99,9 +99,14 @@ class Solved:
 
     @property
     def corrections(self) -> list[Expr]:
-        """A and AM⁻¹ by rows, the multiples of the latter that g and w are off by, then `signs`."""
+        """A and AM⁻¹ by rows, what of the latter g and w are off by in q and q̇, then `signs`."""
         rows = [entry for table in (self._held.jacobian, self.responses) for row in table for entry in row]
-        return [*rows, *self.share.solve(self._held.gaps), *self.share.solve(self._held.slips), *self.signs]
+        off = (self._along(self.share.solve(missed)) for missed in (self._held.gaps, self._held.slips))
+        return [*rows, *(change for changes in off for change in changes), *self.signs]
+
+    def _along(self, multiples: Vector) -> Vector:
+        """So many of the first responses, summed up."""
+        return tuple(_dot(multiples, column) for column in zip(*self.responses, strict=True))
 
     @property
     def reactions(self) -> Vector:

@@ -8,13 +8,12 @@ from __future__ import annotations
 from .compiler import callback, inline
 from .motion import FINE, Floats, holds
 from .pointer import call, doubles_at, prevent_vectorization
-from .projection import CLOSE, Ends, finish_step, keep_rows, take_state, turning
+from .projection import CLOSE, Ends, finish_step, take_state, turning
 from .system import (
     CORRECTED,
     CORRECTED_DATA,
     COUNT,
     DEGREES,
-    HOLONOMIC,
     IS_UNDER_WAY,
     POWERED,
     SOLVED,
@@ -28,21 +27,20 @@ MOST_CORRECTIONS, SURE = 8, 2  # Newton's corrections; behind so many, one that 
 
 
 @inline
-def correct_solved(system: System, multiples: int, count: int, at: int, h: float, rates: Floats) -> tuple[bool, bool]:
-    """Takes multiples of the responses from q (at = 0) or q̇ (at = n): whether hardly anything changed.
+def correct_solved(system: System, h: float, rates: Floats) -> tuple[bool, bool]:
+    """Takes from the state in `inputs` what it is off by: whether hardly anything changed.
 
-    Once relative to each coordinate or to how far it moves in h seconds, once relative to it or 1. `multiples` is where
-    the first of `count` stands in the corrections; `rates` are d/dt of (q, q̇) nearby, shape (≥ 2n,).
+    Once relative to each coordinate or rate, or to how far it moves in h seconds, once relative to it or 1. `rates` are
+    d/dt of (q, q̇) nearby, shape (≥ 2n,).
     """
     n, is_close, is_small = system.head[DEGREES], True, True
-    responses = system.head[COUNT] * n
-    for i in range(n):
-        change = 0.0
-        for k in range(count):
-            change += system.corrections[multiples + k] * system.corrections[responses + k * n + i]
-        system.inputs[at + i] -= change
-        size, change = abs(system.inputs[at + i]), abs(change)
-        if not change <= CLOSE * max(size, abs(h * rates[at + i])):
+    first = 2 * system.head[COUNT] * n
+    for i in range(2 * n):
+        change = system.corrections[first + i]
+        value = system.inputs[i] - change
+        system.inputs[i] = value
+        size, change = abs(value), abs(change)
+        if not change <= CLOSE * max(size, abs(h * rates[i])):
             is_close = False
             if not change <= CLOSE * max(1.0, size):
                 is_small = False
@@ -56,15 +54,13 @@ def project_solved(system: System, h: float, rates: Floats) -> bool:
     Each correction is one of Newton's own, with A and M where it is made: they converge quadratically. `rates` are d/dt
     of (q, q̇) nearby, shape (≥ 2n,).
     """
-    n, m, holonomic = system.head[DEGREES], system.head[COUNT], system.head[HOLONOMIC]
-    first = 2 * m * n
+    n, first = system.head[DEGREES], 2 * system.head[COUNT] * system.head[DEGREES]
     for tries in range(MOST_CORRECTIONS):
         call(system.head[CORRECTED], system.head[CORRECTED_DATA], system.corrections, system.inputs)
-        if not holds(system.corrections, first, holonomic + m, first + holonomic + m):
+        if not holds(system.corrections, first, 2 * n, first + 2 * n):
             return False
-        is_close, is_small = correct_solved(system, first, holonomic, 0, h, rates)
-        rates_close, rates_small = correct_solved(system, first + holonomic, m, n, h, rates)
-        if (is_close and rates_close) or (tries >= SURE and is_small and rates_small):
+        is_close, is_small = correct_solved(system, h, rates)
+        if is_close or (tries >= SURE and is_small):
             return True
     return False
 
@@ -81,10 +77,12 @@ def finish_solved(system: System, t: float, h: float, ends: Ends) -> bool:
     take_state(system, t + h, new)
     if not project_solved(system, h, rates):
         return False
+    call(system.head[SOLVED], system.head[SOLVED_DATA], system.outputs, system.inputs)
+    if not holds(system.outputs, force, n, rows):
+        return False
     for i in range(size):
         system.responses[i] = system.corrections[size + i]
-    call(system.head[SOLVED], system.head[SOLVED_DATA], system.outputs, system.inputs)
-    if not (holds(system.outputs, force, n, rows) and turning(system) > 0.0):
+    if not turning(system) > 0.0:
         return False
     for d in range(n):
         new[d], new[n + d] = system.inputs[d], system.inputs[n + d]
@@ -92,8 +90,7 @@ def finish_solved(system: System, t: float, h: float, ends: Ends) -> bool:
     if system.head[POWERED]:
         derivative[2 * n] = system.outputs[force + n]
     for i in range(size):
-        system.outputs[rows + i] = system.corrections[i]
-    keep_rows(system)
+        system.before[i] = system.corrections[i]
     return True
 
 

@@ -30,7 +30,7 @@ class System(NamedTuple):
     `scales`, shape (m,), and factored, `order` the order of its rows; `of_gaps` and `gap_order` the same of the
     holonomic ones. `multipliers`, shape (m,), are λ, `bends`, shape (n,), is q̈, `right`, shape (m,), a right side.
     `gaps`, shape (2 m,), are g and w; `before`, shape (m n,), is A where the step began, `minor`, shape (m m,), room
-    for a determinant. `corrections`, shape (2 m n + 2 m + SIGNS,), receives what `Solved.corrections` says.
+    for a determinant. `corrections`, shape (2 m n + 2 n + SIGNS,), receives what `Solved.corrections` says.
     `conditioning`, shape (1,), keeps the smallest pivot met, relative to its diagonal entry.
     """
 
@@ -74,7 +74,7 @@ def block_at(data: int) -> System:
     gaps = right + 8 * m
     bends = gaps + 16 * m
     corrections = bends + 8 * n
-    size = 2 * m * n + 2 * m + SIGNS
+    size = 2 * m * n + 2 * n + SIGNS
     return System(
         head,
         order,
@@ -99,7 +99,7 @@ def block_at(data: int) -> System:
 
 def block_size(n: int, m: int, inputs: int, outputs: int, phase: int) -> int:
     """How many numbers a block takes."""
-    return HEAD + 2 * m + inputs + outputs + phase + 4 * m * n + 3 * m * m + 7 * m + n + SIGNS + 1
+    return HEAD + 2 * m + inputs + outputs + phase + 4 * m * n + 3 * m * m + 5 * m + 3 * n + SIGNS + 1
 
 
 @inline
