@@ -4692,8 +4692,9 @@ export interface components {
          */
         IntegralFunctional: {
             /**
-             * @description the integral over the time (enum property replaced by openapi-typescript)
-             * @enum {string}
+             * Kind
+             * @description the integral over the time
+             * @constant
              */
             kind: "integral";
             /**
@@ -9278,8 +9279,9 @@ export interface components {
          */
         ValueFunctional: {
             /**
-             * @description the value at an instant (enum property replaced by openapi-typescript)
-             * @enum {string}
+             * Kind
+             * @description the value at an instant
+             * @constant
              */
             kind: "value";
             /**

@@ -63,8 +63,8 @@ async def test_files_of_the_page_carry_no_identifier(client: httpx.AsyncClient) 
         pytest.param(
             "GET",
             "/api/v1/openapi.json",
-            {"method": "GET", "route": "none", "status": "200"},
-            id="not one of our routes",
+            {"method": "GET", "route": "/openapi.json", "status": "200"},
+            id="the description of the API",
         ),
     ],
 )

@@ -2,17 +2,23 @@
 
 from __future__ import annotations
 
+import asyncio
 import re
 from collections.abc import Iterator
+from threading import Thread, current_thread
 from typing import Any
 
+import httpx
 import pytest
+from fastapi import FastAPI
+from fastapi.openapi.utils import get_openapi
 from tests.description import openapi
 
 from deltaq.api.description import SUBJECTS
 from deltaq.api.samples import SHOWN, literal
 
 Json = dict[str, Any]
+ADDRESS = "/api/v1/openapi.json"
 
 
 @pytest.fixture(scope="module")
@@ -24,6 +30,27 @@ def operations(document: Json) -> Iterator[tuple[str, str, Json]]:
     for path, methods in document["paths"].items():
         for method, operation in methods.items():
             yield method, path, operation
+
+
+@pytest.mark.anyio
+async def test_nobody_waits_while_the_description_is_made(
+    app: FastAPI, client: httpx.AsyncClient, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Who asks first has it made, in a thread; who asks again is told that nothing has changed."""
+    threads = list[Thread]()
+
+    def making(**given: Any) -> Json:
+        threads.append(current_thread())
+        return get_openapi(**given)
+
+    monkeypatch.setattr(app, "openapi_schema", None)
+    monkeypatch.setattr("fastapi.applications.get_openapi", making)
+    answers = await asyncio.gather(*(client.get(ADDRESS) for _ in range(3)))
+    assert len(threads) == 1
+    assert threads != [current_thread()]
+    assert {answer.json()["openapi"] for answer in answers} == {"3.1.0"}
+    again = await client.get(ADDRESS, headers={"If-None-Match": answers[0].headers["ETag"]})
+    assert (again.status_code, again.content) == (304, b"")
 
 
 def test_operations_have_short_names_of_their_own(document: Json) -> None:

@@ -138,7 +138,9 @@ RUN = '"scene": "pendulum", "t_end": 1'
         ),
         pytest.param(
             f'{{{RUN}, "step": 0.1, "tolerance": 0.001}}'.encode(),
-            invalid(problem("request-step-and-tolerance", "Give either a step or a tolerance, not both.")),
+            invalid(
+                problem("request-step-and-tolerance", "Give either a step or a tolerance, not both.", "/tolerance")
+            ),
             id="step and tolerance",
         ),
         pytest.param(

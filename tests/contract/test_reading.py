@@ -15,6 +15,7 @@ from deltaq.contract.base import Request
 from deltaq.contract.check import LinesRequest
 from deltaq.contract.experiments.stability_map import StabilityMapRequest
 from deltaq.contract.reading import read, validated
+from deltaq.contract.variation import VariationRequest
 from deltaq.errors import Problem, RequestError
 from deltaq.narration.catalog import LANGUAGES, message
 from deltaq.packages import modules_of
@@ -157,3 +158,81 @@ def test_whoever_answers_reads_a_request_by_its_declaration_alone() -> None:
 def test_an_unknown_field_is_refused(kind: type[Request]) -> None:
     for problem in told(kind, examples(kind)[0] | {"speed": 1}):
         assert problem == Problem("unknown-field", "/speed", parameters={"field": "speed"})
+
+
+ODD: list[Any] = [0, -1, 1e308, "", "x" * 3000, True, None, [], [0], {}, {"kind": "other"}, {"name": 0}, {"unknown": 0}]
+Keys = tuple[str | int, ...]
+
+
+def places(value: object, at: Keys = ()) -> Iterator[Keys]:
+    """All places in a document but the document itself."""
+    inside = value.items() if isinstance(value, dict) else enumerate(value) if isinstance(value, list) else ()
+    for key, part in inside:
+        yield (*at, key)
+        yield from places(part, (*at, key))
+
+
+def replaced(value: Any, at: Keys, new: object) -> Any:
+    """A document with another value at a place."""
+    if not at:
+        return new
+    changed = value.copy()
+    changed[at[0]] = replaced(value[at[0]], at[1:], new)
+    return changed
+
+
+def is_place(document: Any, pointer: str) -> bool:
+    """Whether a pointer leads to a value of a document, or to a field that is missing from an object in it."""
+    parts = [part.replace("~1", "/").replace("~0", "~") for part in pointer.split("/")[1:]]
+    for number, part in enumerate(parts):
+        if isinstance(document, list) and part.isdecimal() and int(part) < len(document):
+            document = document[int(part)]
+        elif isinstance(document, dict) and part in document:
+            document = document[part]
+        else:
+            return isinstance(document, dict) and number == len(parts) - 1
+    return True
+
+
+def refusals(kind: type[Request], document: dict[str, Any]) -> Iterator[Problem]:
+    """What Python and what a call of the API is told of a document."""
+    for reading in (lambda: read(kind, document), lambda: validated(document, TypeAdapter(kind))):
+        try:
+            reading()
+        except RequestError as error:
+            yield from error.problems
+
+
+@EACH
+def test_a_pointer_leads_to_a_place_in_what_was_sent(kind: type[Request]) -> None:
+    """With an odd value at each place of each example. The names that Pydantic gives to alternatives are no places."""
+    documents = [replaced(one, at, odd) for one in examples(kind) for at in places(one) for odd in ODD]
+    found = [(problem.pointer, document) for document in documents for problem in refusals(kind, document)]
+    assert len(found) > len(documents) / 2
+    assert [(pointer, document) for pointer, document in found if not is_place(document, pointer)] == []
+
+
+NO_KIND = ("request-not-one-of", "/functional/kind", {"expected": "value, integral"})
+
+
+@pytest.mark.parametrize(
+    ("functional", "problem"),
+    [
+        pytest.param({"at": "t0"}, NO_KIND, id="of no kind"),
+        pytest.param({"kind": "mean", "at": "t0"}, NO_KIND, id="of a kind that there is not"),
+        pytest.param({"kind": ["value"], "at": "t0"}, NO_KIND, id="a kind that is no text"),
+        pytest.param(
+            {"kind": "value"}, ("missing-field", "/functional/at", {"field": "at"}), id="of one kind, without its field"
+        ),
+        pytest.param(
+            {"kind": "value", "at": "0", "value": "1"},
+            ("unknown-field", "/functional/value", {"field": "value"}),
+            id="with a field that is called like its kind",
+        ),
+        pytest.param("value", ("request-not-object", "/functional", {}), id="no object"),
+    ],
+)
+def test_of_alternatives_that_one_is_told_that_was_meant(functional: object, problem: tuple[str, str, Any]) -> None:
+    document = {"expression": "x", "functions": ["x"], "functional": functional}
+    found = {(one.code, one.pointer, str(dict(one.parameters))) for one in refusals(VariationRequest, document)}
+    assert found == {(*problem[:2], str(problem[2]))}

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
+from threading import Lock
 from typing import Any
 
 from fastapi import FastAPI
@@ -45,11 +46,16 @@ _FIRST_CLAUSE = re.compile(r"[^.:;]+")
 class DescribedAPI(FastAPI):
     """An application whose document has summaries from the docstrings, and samples that run."""
 
+    def __init__(self, **settings: Any) -> None:
+        super().__init__(**settings)
+        self._making = Lock()
+
     def openapi(self) -> dict[str, Any]:
-        """The OpenAPI document, made once."""
-        if self.openapi_schema is None:
-            self.openapi_schema = _completed(super().openapi())
-        return self.openapi_schema
+        """The OpenAPI document, made once, whatever threads ask for it."""
+        with self._making:
+            if self.openapi_schema is None:
+                self.openapi_schema = _completed(super().openapi())
+            return self.openapi_schema
 
 
 def operation_id(route: APIRoute) -> str:

@@ -20,6 +20,7 @@ R = TypeVar("R", bound=Request)
 T = TypeVar("T")
 Location = tuple[int | str, ...]
 
+OF_NO_KIND = "union_tag_invalid"  # what Pydantic calls an alternative that there is not
 CODES: Mapping[str, str] = MappingProxyType(
     {
         "missing": "missing-field",
@@ -55,6 +56,8 @@ CODES: Mapping[str, str] = MappingProxyType(
         "uncertainty-too-large": "uncertainty-too-large",
         "bifurcation-too-large": "bifurcation-too-large",
         "basins-too-large": "basins-too-large",
+        OF_NO_KIND: "request-not-one-of",
+        "string_pattern_mismatch": "request-not-symbol",
         "request-outside": "request-outside",
         "request-not-text": "request-not-text",
         "request-not-number": "request-not-number",
@@ -117,11 +120,13 @@ def plain_data(value: object) -> Any:
 
 
 def problems_of(findings: Iterable[Mapping[str, Any]]) -> Iterator[Problem]:
-    """One problem for each finding; `loc` says where in the body it is."""
+    """One problem for each finding; `loc` says where in the body it is, `at` of its context at which field of that."""
     for finding in findings:
         is_empty = (finding["type"], finding["loc"]) == ("missing", ())  # there is no body
         code = "request-not-object" if is_empty else CODES.get(finding["type"], "request-invalid")
-        yield Problem(code, pointer(finding["loc"]), parameters=_parameters(code, finding))
+        at = "/kind" if finding["type"] == OF_NO_KIND else finding.get("ctx", {}).get("at", "")
+        place = f"{pointer(finding['loc'])}{at}"
+        yield Problem(code, place, parameters=_parameters(code, finding))
 
 
 def pointer(location: Location) -> str:
@@ -135,7 +140,7 @@ def is_internal(part: int | str) -> bool:
 
 
 def _told(finding: Mapping[str, Any], model: type[BaseModel], document: Mapping[str, object]) -> Problem:
-    """A finding as Python is told it: with both bounds where there are two, and at the field that is to be left out."""
+    """A finding as Python is told it: with both bounds where there are two."""
     (problem,) = problems_of([finding])
     given, bounds = finding["input"], _bounds(model, finding["loc"], document) if finding["type"] in OUTSIDE else ()
     if bounds:
@@ -144,7 +149,7 @@ def _told(finding: Mapping[str, Any], model: type[BaseModel], document: Mapping[
         return Problem("request-not-flag", problem.pointer)
     if problem.code == "request-not-number" and type(given) is int and abs(given) > sys.float_info.max:
         return Problem("request-not-finite", problem.pointer)
-    return problem if finding["loc"] else problem.below(str(finding.get("ctx", {}).get("at", "")))
+    return problem
 
 
 def _outside(given: float | str, low: float, high: float) -> dict[str, Parameter]:
@@ -171,4 +176,5 @@ def _parameters(code: str, finding: Mapping[str, Any]) -> dict[str, Any]:
         return {"field": str(finding["loc"][-1])[:64]}
     found = {name: value for name, value in finding.get("ctx", {}).items() if name in FILLING}
     words = _QUOTED.findall(str(found.get("expected", "")))
+    words += [tag.removeprefix(OF_KIND) for tag in _QUOTED.findall(finding.get("ctx", {}).get("expected_tags", ""))]
     return {**found, "expected": ", ".join(words)} if words else found

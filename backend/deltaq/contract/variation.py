@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import Annotated, Literal
 
-from pydantic import ConfigDict, Field
+from pydantic import ConfigDict, Discriminator, Field, Tag
 
 from ..vocabulary import Ends
-from .base import Answer, AskedLanguage, ExpressionText, Name, Names, Request, Syntax, Values, examples, items
+from .base import OF_KIND, Answer, AskedLanguage, ExpressionText, Name, Names, Request, Syntax, Values, examples, items
 from .derivation import Chapter
 from .result import Formula
 
@@ -21,9 +22,17 @@ class NamedFunction(Request):
     latex: Latex | None = Field(None, description="how it is written; else by its name", examples=["\\varphi"])
 
 
+def _form(given: object) -> str:
+    """Whether a name comes with how it is written: so only what is wrong with that form is told."""
+    return OF_KIND + ("written" if isinstance(given, Mapping | NamedFunction) else "name")
+
+
 Texts = Annotated[dict[Name, ExpressionText], Field(max_length=8)]
-Functions = Annotated[tuple[Name | NamedFunction, ...], items(min_length=1, max_length=8)]
-Parameters = Annotated[tuple[Name | NamedFunction, ...], items(max_length=32)]
+Named = Annotated[
+    Annotated[Name, Tag(OF_KIND + "name")] | Annotated[NamedFunction, Tag(OF_KIND + "written")], Discriminator(_form)
+]
+Functions = Annotated[tuple[Named, ...], items(min_length=1, max_length=8)]
+Parameters = Annotated[tuple[Named, ...], items(max_length=32)]
 
 
 class ValueFunctional(Request):
@@ -48,6 +57,18 @@ class IntegralFunctional(Request):
     model_config = ConfigDict(serialize_by_alias=True)
 
 
+def _kind(given: object) -> str:
+    """Which of both a functional is meant to be: so only what is wrong with that one is told."""
+    kind = given.get("kind") if isinstance(given, Mapping) else getattr(given, "kind", "integral")
+    return f"{OF_KIND}{kind if isinstance(kind, str) else ''}"
+
+
+Functional = Annotated[
+    Annotated[ValueFunctional, Tag(OF_KIND + "value")] | Annotated[IntegralFunctional, Tag(OF_KIND + "integral")],
+    Discriminator(_kind),
+]
+
+
 class Numeric(Request):
     """Concrete functions for the comparison of difference quotient and derivative."""
 
@@ -65,8 +86,8 @@ class VariationRequest(Request):
     functions: Functions = Field(description="the functions of time; their rates are dot(x), ddot(x)", examples=[["x"]])
     direction: Names = Field((), description="names of the directions v; δ of each function if empty", examples=[["v"]])
     parameters: Parameters = Field((), description="everything else that is constant", examples=[["l"]])
-    functional: ValueFunctional | IntegralFunctional | None = Field(
-        None, discriminator="kind", description="what is made of the expression; the expression itself if empty"
+    functional: Functional | None = Field(
+        None, description="what is made of the expression; the expression itself if empty"
     )
     include: Annotated[tuple[Literal["quotient"], ...], items(max_length=1)] = Field(
         (), description="quotient: difference quotients of the concrete functions against the derivative"
