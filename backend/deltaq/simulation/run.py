@@ -122,8 +122,9 @@ class Steps:
 def run(problem: Problem, method: Method, times: Floats, cancelled: Flag, steps: Steps) -> Run:
     """Integrates a problem once, with samples at `times`, shape (samples,), in seconds; `cancelled` has shape (1,).
 
-    A run begins in machine code that is compiled quickly. One that turns out to be long begins again in code that runs
-    faster, whose compilation takes as long as what was lost; so do runs of a model that has run for as long already.
+    A run begins in machine code that is compiled quickly, or with series that are interpreted. One that turns out to be
+    long begins again in code that runs faster, whose compilation takes as long as what was lost; so do runs of a model
+    that has run for as long already.
     One that has taken a part of the steps that are allowed is given up where the rest of them would bring it nowhere.
     """
     model, stages, limit = problem.model, method.tableau.stages, problem.step_limit

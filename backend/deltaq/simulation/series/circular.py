@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from math import factorial, pi
 
-from .code import LIBRARY, THOROUGH, Code, MachineCode, compiled, host, shared
+from .code import LIBRARY, Code, MachineCode, compiled, host, shared
 
 LARGEST = 2.0**30  # beyond, three parts of π/2 may be too few
 PARTS = (pi / 2.0, 6.123233995736766e-17, -1.4973849048591698e-33)  # of π/2, each what is left of it, rounded
@@ -56,7 +56,7 @@ def _made(name: str, lanes: int) -> MachineCode:
     half = code.new(f"insertvalue {pair} poison, {kind} {sine}, 0")
     whole = code.new(f"insertvalue {pair} {half}, {kind} {cosine}, 1")
     code.do(f"ret {pair} {whole}")
-    return compiled({name: code}, THOROUGH, pair, f"{kind} %x")
+    return compiled({name: code}, pair, f"{kind} %x")
 
 
 def _any(code: Code, truths: str) -> str:

@@ -23,7 +23,7 @@ from ...model.recurrences import FUNCTIONS
 
 LIBRARY = "deltaq.math."  # before the names of functions of the C library
 MORE = ("pow", "atan2")  # of these
-QUICK, THOROUGH = 0, 2  # LLVM's effort: code that is there twice as soon, or that runs in a fifth of the time
+EFFORT = 2  # of LLVM; 0 takes a third of the time to compile and twice as long to run
 _LOCK = RLock()
 _CALLED = re.compile(rf'@"{re.escape(LIBRARY)}([^"]+)"')
 _NUMBERS = count()  # of libraries: each has a name of its own
@@ -202,10 +202,10 @@ class Host:
 
 
 @cache
-def _machine(effort: int) -> Any:
+def _machine() -> Any:
     """What writes code for this processor; to make it and to use it once takes as long as a small function."""
     here, target = host(), llvm.Target.from_default_triple  # of which there is none before
-    return target().create_target_machine(cpu=here.name, features=here.features, opt=effort, jit=True)
+    return target().create_target_machine(cpu=here.name, features=here.features, opt=EFFORT, jit=True)
 
 
 @lru_cache(1)
@@ -249,7 +249,6 @@ class MachineCode:
 
 def compiled(
     functions: Mapping[str, Code],
-    effort: int,
     returned: str = "void",
     given: str = ARGUMENTS,
     inner: Sequence[str] = (),
@@ -265,30 +264,27 @@ def compiled(
     with _LOCK:
         module = llvm.parse_assembly(text)
         module.triple = llvm.get_default_triple()
-        library = llvm.JITLibraryBuilder().add_object_img(_machine(effort).emit_object(module)).add_current_process()
+        library = llvm.JITLibraryBuilder().add_object_img(_machine().emit_object(module)).add_current_process()
         for name in functions:
             library.export_symbol(name)
         for name in set(_CALLED.findall(text)):
-            library.import_symbol(LIBRARY + name, _address(name))
+            library.import_symbol(LIBRARY + name, address_of(name))
         number = next(_NUMBERS)
         linked = library.link(_linker(number // TOGETHER), f"deltaq.{number}")
     return MachineCode(linked, {name: linked[name] for name in functions})
 
 
-def _address(name: str) -> int:
+def address_of(name: str) -> int:
     """Where a function is that code calls as LIBRARY + `name`."""
-    return _shared()[name].addresses[name] if name in _shared() else host().library[name]
+    return _shared()[name].address if name in _shared() else host().library[name]
 
 
-def shared(name: str, make: Callable[[], MachineCode]) -> None:
-    """Has all code call a function as LIBRARY + `name`, made when it is first wanted and kept from then on.
-
-    So are all others that are made with it.
-    """
+def shared(name: str, make: Callable[[], MachineCode]) -> MachineCode:
+    """A function that is made when it is first wanted and kept from then on; code may call it as LIBRARY + `name`."""
     with _LOCK:
         if name not in _shared():
-            made = make()
-            _shared().update(dict.fromkeys(made.addresses, made))
+            _shared()[name] = make()
+        return _shared()[name]
 
 
 @cache

@@ -1,4 +1,4 @@
-"""Which code a model's series run in: code that is compiled quickly at first, faster code in the long run."""
+"""Which code a model's series run in: they are interpreted at first, and in the long run have code of their own."""
 
 from __future__ import annotations
 
@@ -6,8 +6,9 @@ from functools import lru_cache
 
 from ...model.model import Model
 from ..kernels.motion import SMALLEST_PIVOT
-from .code import QUICK, THOROUGH, MachineCode, compiled, host
+from .code import MachineCode, compiled, host
 from .generated import Jet, jet_of
+from .interpreter import interpreted
 from .neighbour import begin, carry, compare, look, settle
 from .shape import Shape
 from .stepping import advance, measure
@@ -24,19 +25,20 @@ def lanes_of_host() -> int:
 
 
 def jet_of_model(model: Model, *, is_long: bool, lanes: int = 1) -> Jet:
-    """The code for a model's series; made once for each effort, and the thorough one serves all once it is there."""
-    effort = THOROUGH if is_long or model.has(("jet", lanes, THOROUGH)) else QUICK
-    return model.kept(("jet", lanes, effort), lambda: jet_of(model.recurrences, lanes, effort))
+    """The code for a model's series; once it has code of its own, that serves all runs of as many lanes."""
+    if lanes == 1 and not is_long and not model.has(("jet", lanes)):
+        return model.kept("interpreted jet", lambda: interpreted(model.recurrences))
+    return model.kept(("jet", lanes), lambda: jet_of(model.recurrences, lanes))
 
 
 @lru_cache(SHAPES)
 def code_of_steps(shape: Shape) -> MachineCode:
     """How lanes go a step and tell what it did: of the shape alone, so that it is there for most new models."""
-    return compiled({"advance": advance(shape), "measure": measure(shape, SMALLEST_PIVOT)}, THOROUGH)
+    return compiled({"advance": advance(shape), "measure": measure(shape, SMALLEST_PIVOT)})
 
 
 @lru_cache(SHAPES)
 def code_of_neighbours(shape: Shape) -> MachineCode:
     """What neighbours do (`neighbour`), of the shape alone: asked for only where errors are."""
     functions = {"begin": begin(shape), "carry": carry(shape), "settle": settle(shape)}
-    return compiled(functions | {"look": look(shape), "compare": compare(shape)}, THOROUGH)
+    return compiled(functions | {"look": look(shape), "compare": compare(shape)})

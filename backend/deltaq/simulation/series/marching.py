@@ -27,7 +27,7 @@ from ..kernels.ensemble import (
 )
 from ..kernels.step import LARGEST_VALUE
 from ..kernels.taylor import SHORTER
-from .code import THOROUGH, Code, MachineCode, compiled
+from .code import Code, MachineCode, compiled
 
 LANES = 8  # motions side by side where few are marched in rounds: the fewer rounds, the better
 LEAST_PART = 1e-6  # of the step that the series allows, or the span: no shorter one is asked for
@@ -94,7 +94,7 @@ def marching() -> MachineCode:
 
     The series where the lanes are is number program[SLOT], before and behind.
     """
-    return compiled({"march": _march()}, THOROUGH, inner=(_mixed(), _seen()))
+    return compiled({"march": _march()}, inner=(_mixed(), _seen()))
 
 
 def _march() -> Code:
