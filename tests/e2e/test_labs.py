@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+import json
 import re
 
 import pytest
-from playwright.sync_api import expect
+from playwright.sync_api import Route, expect
 from tests.e2e.lecture import Lecture
 from tests.e2e.waiting import until_equal
 
@@ -64,6 +65,23 @@ def test_a_run_is_stopped_and_keeps_what_was_measured(lecture: Lecture) -> None:
     expect(page.locator(".progress")).to_contain_text("what was measured stays")
     expect(page.locator("figure").first).to_be_visible()
     expect(page.get_by_role("button", name="Measure", exact=True)).to_be_enabled()
+
+
+def test_a_run_that_fails_on_the_way_keeps_what_was_measured(lecture: Lecture) -> None:
+    """The service's own answer, whose end is replaced by the problem that a deadline is."""
+    problem = {"type": "/problems/too-large", "title": "Too large", "status": 504, "detail": "Stopped.", "problems": []}
+
+    def cut(route: Route) -> None:
+        answer = route.fetch()
+        parts, _, _ = answer.text().partition("event: result")
+        route.fulfill(response=answer, body=f"{parts}event: problem\ndata: {json.dumps(problem)}\n\n")
+
+    page = opened(lecture, "lab=convergence&scene=pendulum").page
+    page.route("**/experiments/convergence", cut)
+    page.locator("form.question button.main").click()
+    expect(page.locator(".measured .failure")).to_contain_text("Stopped.")
+    expect(page.locator(".measured .failure")).to_contain_text("what was measured stays")
+    expect(page.locator("figure").first).to_be_visible()
 
 
 def test_the_step_of_failure_is_told_and_played(lecture: Lecture) -> None:

@@ -50,7 +50,7 @@ export function page(view) {
       <div class="measured" id="measured" tabindex="-1" aria-busy=${String(bench.running)}>
         <p class="purpose">${t(`labs.experiments.${bench.question.lab}.summary`)}</p>
         ${progress(view)}
-        ${bench.failure ? failure(bench.failure, t("labs.failed"), view.benches.start, t, mending(view), placeOf(view)) : nothing}
+        ${bench.failure ? failure(bench.failure, t(bench.charts.length ? "labs.unfinished" : "labs.failed"), view.benches.start, t, mending(view), placeOf(view)) : nothing}
         ${bench.charts.length ? charts(view) : bench.running || bench.failure ? nothing : invitation(view)}
         ${motion(view)}
       </div>
