@@ -24,10 +24,11 @@ class Reactions:
         return Reactions(self.multipliers[:count], self.gaps[:count])
 
 
-def block(problem: Problem, *, is_long: bool = True, with_phase: bool = False, is_kicked: bool = False) -> Floats:
+def block(problem: Problem, *, is_long: bool = True, with_phase: bool = False, tells_end: bool = True) -> Floats:
     """The memory of a model with constraints, which its functions are given: shape (size,).
 
-    It holds addresses of machine code that lives as long as the model. `is_kicked`: positions are kept by kicks.
+    It holds addresses of machine code that lives as long as the model. `tells_end`: whether the derivative at the end
+    of a step is asked for when its state is projected.
     """
     model = problem.model
     n, m = problem.degrees, len(model.layout.multipliers)
@@ -60,7 +61,7 @@ def block(problem: Problem, *, is_long: bool = True, with_phase: bool = False, i
         held = model.phase.held if problem.rank == m else None
         if held is not None:
             head[kernel.HELD_PHASE], head[kernel.HELD_PHASE_DATA] = held.addresses
-    head[kernel.IS_KICKED] = is_kicked
+    head[kernel.TELLS_END] = tells_end
     first = kernel.HEAD + 2 * m
     head[kernel.HEAD : kernel.HEAD + m] = np.arange(m)
     memory[first + 2 * n + 1 : first + motion.inputs] = problem.parameters

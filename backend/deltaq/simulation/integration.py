@@ -153,8 +153,11 @@ def _series(scheme: Series, arguments: KernelArguments) -> Result:
     )
 
 
-def motion_of(problem: Problem, *, is_long: bool = True, is_kicked: bool = False) -> Motion:
-    """The right-hand side of a problem for kernels, in code for long runs or code that is compiled quickly."""
+def motion_of(problem: Problem, *, is_long: bool = True, tells_end: bool = True) -> Motion:
+    """The right-hand side of a problem for kernels, in code for long runs or code that is compiled quickly.
+
+    `tells_end`: as in `constraints.block`.
+    """
     motion = problem.model.thorough if is_long else problem.model.motion
     address, data = motion.addresses
     inputs = np.zeros(motion.inputs)
@@ -163,7 +166,7 @@ def motion_of(problem: Problem, *, is_long: bool = True, is_kicked: bool = False
     found = Motion(address, data, problem.degrees, powered, inputs, outputs, np.ones(1), 0, 0, 0, np.zeros(1))
     if not problem.is_constrained:
         return found
-    memory = block(problem, is_long=is_long, is_kicked=is_kicked)
+    memory = block(problem, is_long=is_long, tells_end=tells_end)
     general, place = constrained_motion.address, memory.ctypes.data
     address, data = solved_in(memory) or (general, place)
     return found._replace(

@@ -9,12 +9,12 @@ import numpy as np
 
 from .constraints import Reactions, is_locked, pivot_of
 from .event import Approach, Event, approaches, first_event, quick_event
-from .integration import Flag, KernelArguments, is_kicked, motion_of, run_kernel, watch_of
+from .integration import Flag, KernelArguments, motion_of, run_kernel, watch_of
 from .kernels.loop import Result
 from .kernels.motion import EVENT, FINE, HELD, LOCKED, NEWTON_FAILED, SINGULAR, STEP_LIMIT, STIFF
 from .kernels.plan import CAPACITY, COUNT, STRIDE, Plan, make_plan
 from .kernels.step_control import Control
-from .method import Method, Series
+from .method import Method, Partitioned, Series
 from .outcome import OUT_OF_REACH
 from .pieces import Pieces
 from .problem import Floats, Problem
@@ -165,7 +165,7 @@ def _run(problem: Problem, method: Method, times: Floats, cancelled: Flag, steps
         jet_of_model(problem.model, is_long=is_long)  # compiled before the time is taken
     arguments = KernelArguments(
         problem,
-        motion_of(problem, is_long=is_long and not is_series, is_kicked=is_kicked(method.tableau, problem)),
+        motion_of(problem, is_long=is_long and not is_series, tells_end=not isinstance(method.tableau, Partitioned)),
         _control(problem, method, steps, plan),
         watch_of(problem, cancelled, method.tableau),
         np.ascontiguousarray(times),  # a kernel is compiled anew for an array with strides

@@ -16,7 +16,7 @@ from .loop import Result, advance_time, begin, interruption
 from .motion import FINE, HELD, NEWTON_FAILED, STEP_UNDERFLOW, Floats, Motion, rhs
 from .newton import SLOW
 from .phase import Phase, momenta
-from .plan import Plan, enter_piece, fit_step, record
+from .plan import enter_piece, fit_step, record
 from .stages import ImplicitWeights, predict
 from .step_control import Control, controlled_step, is_resolvable, log_error, reduced_step
 from .switch import AHEAD, detect_hold, held_or_failed, is_held_before
@@ -107,11 +107,16 @@ def first_step_of_piece(control: Control, piece: int) -> float:
 
 
 @inline
-def begin_step(phase: Phase, plan: Plan, t: float, workspace: ImplicitWorkspace) -> int:
-    """The rates of the momenta where a step begins, which is recorded; returns the evaluations made."""
+def begin_step(phase: Phase, control: Control, t: float, workspace: ImplicitWorkspace) -> int:
+    """The rates of the momenta where a step begins, which is recorded; returns the evaluations made.
+
+    Only an error that is estimated reads them.
+    """
     ends, n = workspace.ends, workspace.p.size
+    record(control.plan, t, ends.old)
+    if control.tolerance == 0.0:
+        return 0
     momenta(phase, t, ends.old[:n], ends.old[n : 2 * n], workspace.stages.spare[0], workspace.rate)
-    record(plan, t, ends.old)
     return 1
 
 
@@ -161,7 +166,7 @@ def integrate_implicit(
         piece, t, jumped = enter_piece(plan, piece, t)
         if jumped:
             time_compensation, before_h, is_old, wanted = 0.0, 0.0, True, first_step_of_piece(control, piece)
-            evaluations += begin_step(phase, plan, t, workspace)
+            evaluations += begin_step(phase, control, t, workspace)
         h, ends_piece = fit_step(plan, piece, t, wanted)
         predict(weights, h / before_h if before_h > 0.0 else 0.0, v, workspace.stages)
         if is_old:
@@ -189,7 +194,7 @@ def integrate_implicit(
             accept_step(workspace)
             steps += 1
             t, time_compensation = advance_time(plan, piece, t, h, time_compensation, 1 if ends_piece else 0)
-            evaluations += begin_step(phase, plan, t, workspace)
+            evaluations += begin_step(phase, control, t, workspace)
             before_h, is_fresh, is_old = h, False, slowness > SLOW
             wanted = max(next_step(control, h, error), wanted if ends_piece else 0.0)
         elif outcome != FINE and not is_fresh:

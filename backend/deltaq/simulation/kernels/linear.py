@@ -43,9 +43,12 @@ def substitute(a: Floats, pivots: Indices, x: Floats) -> None:
     for k in range(n):
         x[k], x[pivots[k]] = x[pivots[k]], x[k]
     for i in range(n):
+        left = x[i]  # a number of its own: sums that are kept in memory wait for it
         for k in range(i):
-            x[i] -= a[i, k] * x[k]
+            left -= a[i, k] * x[k]
+        x[i] = left
     for i in range(n - 1, -1, -1):
+        left = x[i]
         for k in range(i + 1, n):
-            x[i] -= a[i, k] * x[k]
-        x[i] /= a[i, i]
+            left -= a[i, k] * x[k]
+        x[i] = left / a[i, i]

@@ -130,7 +130,9 @@ def newton_iteration(
         ratio = correction / before if iteration > 1 else 0.0
         slowness = ratio if iteration == 2 else slowness
         floor = ROUNDING * (size + reach / (weights.beta * h * h))
-        if correction <= ROUNDING * size or (ratio > 0.3 and correction <= 64.0 * floor):
+        left = correction * (ratio / (1.0 - ratio) if 0.0 < ratio < 1.0 else 1.0)
+        is_rounding = ratio > 0.3 and correction <= 64.0 * floor
+        if correction <= ROUNDING * size or left <= 0.1 * ROUNDING * size or is_rounding:
             update_state(weights, h, workspace)
             return FINE, iteration, slowness
         if iteration > 3 and ratio >= 1.0:
@@ -147,8 +149,10 @@ def finish_step(motion: Motion, t: float, h: float, workspace: NewmarkWorkspace)
         size = abs(ends.new[d])
         if not size <= LARGEST_VALUE:
             return TOO_LARGE if size < np.inf else NOT_FINITE
-    outcome = rhs(motion, t + h, ends.new, ends.new_derivative)
-    if outcome == FINE:
+    outcome = FINE
+    if motion.finish == 0:
+        outcome = rhs(motion, t + h, ends.new, ends.new_derivative)
+    else:
         outcome = finish_constrained(motion, t, h, ends.old, ends.new, ends.old_derivative, ends.new_derivative)
     for d in range(2 * n, ends.new.size):
         ends.new[d] = ends.old[d] + 0.5 * h * (ends.old_derivative[d] + ends.new_derivative[d])

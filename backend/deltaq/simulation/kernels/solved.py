@@ -18,6 +18,7 @@ from .system import (
     POWERED,
     SOLVED,
     SOLVED_DATA,
+    TELLS_END,
     System,
     block_at,
     place_of_rows,
@@ -67,7 +68,7 @@ def project_solved(system: System, h: float, rates: Floats) -> bool:
 
 @inline
 def finish_solved(system: System, t: float, h: float, ends: Ends) -> bool:
-    """The new state of a step projected, and its derivative; False if this is left to be done by numbers.
+    """The new state of a step projected, and its derivative if asked for; False if this is left to be done by numbers.
 
     That is so, too, where constraints may have lost their independence on the way.
     """
@@ -77,17 +78,20 @@ def finish_solved(system: System, t: float, h: float, ends: Ends) -> bool:
     take_state(system, t + h, new)
     if not project_solved(system, h, rates):
         return False
-    call(system.head[SOLVED], system.head[SOLVED_DATA], system.outputs, system.inputs)
-    if not holds(system.outputs, force, n, rows):
-        return False
+    tells_end = system.head[TELLS_END] != 0
+    if tells_end:
+        call(system.head[SOLVED], system.head[SOLVED_DATA], system.outputs, system.inputs)
+        if not holds(system.outputs, force, n, rows):
+            return False
     for i in range(size):
         system.responses[i] = system.corrections[size + i]
     if not turning(system) > 0.0:
         return False
     for d in range(n):
         new[d], new[n + d] = system.inputs[d], system.inputs[n + d]
+    for d in range(n if tells_end else 0):
         derivative[d], derivative[n + d] = system.inputs[n + d], system.outputs[force + d]
-    if system.head[POWERED]:
+    if tells_end and system.head[POWERED]:
         derivative[2 * n] = system.outputs[force + n]
     for i in range(size):
         system.before[i] = system.corrections[i]
