@@ -6,13 +6,15 @@ import { tableOf } from "./own.js";
 
 /**
  * Looks a text up in one section of a catalog; keys may be flat ("player.play") or nested.
+ * Where `count` is 1, the text under the key and "-one" is taken, if there is one.
  * An absent text shows its key, so that it is seen.
  * @param {Record<string, unknown>} section
  * @returns {Translate}
  */
 export function translator(section) {
+  const found = (/** @type {string} */ key) => section[key] ?? nested(section, key);
   return (key, parameters = {}) => {
-    const text = section[key] ?? nested(section, key);
+    const text = (String(parameters.count) === "1" ? found(`${key}-one`) : undefined) ?? found(key);
     return typeof text === "string" ? filled(text, parameters) : key;
   };
 }

@@ -165,7 +165,7 @@ function sceneChooser({ state, session, t }) {
   return html`
     <div class="scene">
       ${titleMenu(t("scene.choose"), entry ? titleOf(entry) : isComing(state) ? "" : t("scene.choose"), select)}
-      <p class="summary">${entry ? (freedoms === 1 ? t("scene.freedoms-one") : t("scene.freedoms", { count: freedoms })) : ""}
+      <p class="summary">${entry ? t("scene.freedoms", { count: freedoms }) : ""}
         ${entry && about ? html`<span class="more">${about}</span>` : nothing}</p>
     </div>
   `;

@@ -89,7 +89,7 @@ function substeps(content, view) {
   const count = content.substeps.length;
   return html`
     <details class="substeps" @toggle=${comesIntoView}>
-      <summary>${icon("chevron")}${count === 1 ? view.t("step.substeps-one") : view.t("step.substeps", { count })}</summary>
+      <summary>${icon("chevron")}${view.t("step.substeps", { count })}</summary>
       <ol>
         ${content.substeps.map(
           (part) => html`

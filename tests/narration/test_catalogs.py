@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator, Mapping
 from importlib.resources import files
-from itertools import chain
+from itertools import chain, product
 from pathlib import Path
 from string import Formatter
 
@@ -62,6 +62,35 @@ FALSE_FRIENDS = {
 def test_english_sentences_are_english(friend: str) -> None:
     found = {key for key, sentence in texts("en").items() if re.search(FALSE_FRIENDS[friend], sentence)}
     assert found == set()
+
+
+# Of these there are never one: why.
+NEVER_ONE = {
+    "errors.answers-many": "beyond a bound",
+    "errors.handins-many": "beyond a bound",
+    "errors.answer-not-vector": "components of a vector",
+    "errors.too-many-constraints": "a single one on no free coordinate is told otherwise",
+    "labs.stability.caption": "eigenvalues come in pairs",
+    "labs.stability-map.caption": "points of a map",
+    "labs.chaos.map-caption": "motions of a map",
+    "labs.bifurcation.by-period": "values of a sweep",
+    "labs.bifurcation.by-plane": "values of a sweep",
+    "labs.basins.starts": "starts of a map",
+    "page.status.coarse": "samples of a motion",
+    "start.start.scenes-lead": "built-in scenes",
+}
+
+
+def test_one_is_not_told_as_several() -> None:
+    """`1 orbits lose their digits`: what {count} counts has a sentence for one, in every language."""
+    plural = re.compile(r"(?<!of )\{count\} (?:[a-z]+ )?[a-z]{2,}s\b(?<!is)(?<!was)")
+    counted = {key for key, sentence in texts("en").items() if plural.search(sentence)} - NEVER_ONE.keys()
+    assert len(counted) > 15
+    assert [key for key in counted if f"{key}-one" not in texts("en")] == []
+    for key, language in product((one for one in counted if one.startswith("labs.")), LANGUAGES):
+        given = dict.fromkeys(fields(template(language, key)), "…")
+        assert text(language, key, **given | {"count": 1}) == text(language, f"{key}-one", **given)
+        assert text(language, key, **given | {"count": "1"}) != text(language, key, **given | {"count": 2})
 
 
 def fields(template: str) -> set[str]:

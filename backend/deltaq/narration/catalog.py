@@ -34,17 +34,24 @@ def catalog(language: str) -> Catalog:
 
 def template(language: str, key: str) -> str:
     """The text under a key such as `rules.guide.title`. A key without a text is a KeyError: our bug."""
-    entry: object = catalog(language)
-    for part in key.split("."):
-        if not isinstance(entry, Mapping) or part not in entry:
-            raise KeyError(f"no text for {key} in {language}")
-        entry = entry[part]
+    entry = _entry(language, key)
+    if entry is None:
+        raise KeyError(f"no text for {key} in {language}")
     return str(entry)
 
 
+def _entry(language: str, key: str) -> object | None:
+    """What stands under a key, if anything does."""
+    entry: object | None = catalog(language)
+    for part in key.split("."):
+        entry = entry.get(part) if isinstance(entry, Mapping) else None
+    return entry
+
+
 def text(language: str, key: str, **parameters: object) -> CatalogText:
-    """The sentence under a key, its {placeholders} put in."""
-    return filled(template(language, key), parameters)
+    """The sentence under a key, its {placeholders} put in; where {count} is 1, the one under `KEY-one`, if there is."""
+    is_one = str(parameters.get("count")) == "1" and _entry(language, f"{key}-one") is not None
+    return filled(template(language, f"{key}-one" if is_one else key), parameters)
 
 
 def keys(language: str, key: str) -> tuple[str, ...]:

@@ -92,8 +92,8 @@ function verdict({ writing, state, session, editing, t }) {
       ${failed ? html`<p class="wrong" role="alert">${failed.detail || failed.title}</p>` : nothing}
       <div class="line"><p role="status">
         ${valid ? icon("verified") : nothing}
-        <span>${writing.verdict === "invalid" ? t(errors === 1 ? "editor.invalid-one" : "editor.invalid", { count: errors }) : t(`editor.${writing.verdict}`)}</span>
-        ${warnings && writing.verdict !== "waiting" ? html`<span class="advice">${t(warnings === 1 ? "editor.warning-one" : "editor.warnings", { count: warnings })}</span>` : nothing}
+        <span>${writing.verdict === "invalid" ? t("editor.invalid", { count: errors }) : t(`editor.${writing.verdict}`)}</span>
+        ${warnings && writing.verdict !== "waiting" ? html`<span class="advice">${t("editor.warnings", { count: warnings })}</span>` : nothing}
         ${writing.verdict === "unreachable" ? html`<button class="quiet small" @click=${editing.again}>${t("retry")}</button>` : nothing}</p>
         <button class="main" ?disabled=${!valid} @click=${() => session.move({ edit: "" })}>${t("editor.derive")}${icon("next")}</button>
       </div>

@@ -104,7 +104,7 @@ function outcome(view, session) {
 function refusals({ t }, session) {
   const { refused } = session.get();
   if (!refused.length) return nothing;
-  const told = t(refused.length === 1 ? "homework.class-refused-one" : "homework.class-refused", {
+  const told = t("homework.class-refused", {
     count: refused.length,
   });
   return html`<details class="refusals" open><summary role="alert">${told}</summary>

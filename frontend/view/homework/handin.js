@@ -76,7 +76,7 @@ export function rules({ state, t }) {
     deadline
       ? t(late ? "homework.rule-deadline-late" : "homework.rule-deadline", { time: moment(deadline, lang), share })
       : "",
-    attempts ? t(attempts === 1 ? "homework.rule-attempt" : "homework.rule-attempts", { count: attempts }) : "",
+    attempts ? t("homework.rule-attempts", { count: attempts }) : "",
   ].filter(Boolean);
   return told.length ? html`<ul class="sheet-rules">${told.map((one) => html`<li>${one}</li>`)}</ul>` : nothing;
 }

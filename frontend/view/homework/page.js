@@ -120,7 +120,7 @@ function single(view) {
   if (!entry) return html`<p class="patience" role="status">${t("homework.loading")}</p>`;
   return html`<article class="question" aria-label=${t("homework.task")}>
     ${state.asked.side === "practice" ? view.practice?.problem(view) : nothing}
-    <h2><span>${prose(entry.task.title)}</span><span class="worth">${t(entry.task.points === 1 ? "homework.points-one" : "homework.points", { points: entry.task.points.toLocaleString(state.asked.place.lang) })}</span></h2>
+    <h2><span>${prose(entry.task.title)}</span><span class="worth">${t("homework.points", { count: entry.task.points, points: entry.task.points.toLocaleString(state.asked.place.lang) })}</span></h2>
     <p class="prose">${prose(entry.task.statement)}</p>
     ${answer(view)}
     ${verdict(view)}

@@ -48,7 +48,7 @@ export function picker(view, session) {
 
 /** @param {HomeworkView} view @param {number} value */
 const pointsOf = ({ state, t }, value) =>
-  t(value === 1 ? "homework.points-one" : "homework.points", { points: value.toLocaleString(state.asked.place.lang) });
+  t("homework.points", { count: value, points: value.toLocaleString(state.asked.place.lang) });
 
 /** The tasks of a scene as students read them. @param {HomeworkView} view @param {Picker} session */
 function offered(view, session) {

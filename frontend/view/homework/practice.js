@@ -48,7 +48,7 @@ function lessons({ state, t }, session, nameOf) {
   return html`<div class="lessons"><h2>${t("practice.back")}</h2>
     ${
       memory.lessons.length
-        ? html`<p class="so">${waiting ? t(waiting === 1 ? "practice.due-one" : "practice.due", { count: waiting }) : t(none)}</p>
+        ? html`<p class="so">${waiting ? t("practice.due", { count: waiting }) : t(none)}</p>
       <ul>${ahead(memory).map(({ id, card }) => html`<li data-due=${String(card.due <= now)}><span>${prose(nameOf(id))}</span><time datetime=${card.due.toISOString()}>${card.due <= now ? t("practice.now") : moment(card.due, now, lang)}</time></li>`)}</ul>`
         : html`<p class="so">${t("practice.nothing-back")}</p>`
     }</div>`;

@@ -74,7 +74,7 @@ function card({ id, title, summary, degrees_of_freedom: count }, { state, t }) {
       <div class="drawing waiting" data-scene=${id}><svg aria-hidden="true"></svg><div class="labels" aria-hidden="true"></div></div>
       <h3>${inLanguage(title, lang)}</h3>
       <p>${inLanguage(summary ?? undefined, lang)}</p>
-      <p class="count">${count === 1 ? t("scene.freedoms-one") : t("scene.freedoms", { count })}</p></a></li>`;
+      <p class="count">${t("scene.freedoms", { count })}</p></a></li>`;
 }
 
 /** @param {StartView} view */

@@ -85,7 +85,7 @@ def _told(result: Result, say: Say) -> Iterator[str]:
     key = "labs.poincare-section"
     orbits, told = result["orbits"], {name: result[name] for name in ("plane", "points", "energy", "regular")}
     direction = say(f"labs.direction-{result['direction']}")
-    yield say(f"{key}.{'driven' if result['driven'] else 'kept'}", **told, orbits=len(orbits), direction=direction)
+    yield say(f"{key}.{'driven' if result['driven'] else 'kept'}", **told, count=len(orbits), direction=direction)
     for name in ("forbidden", "unsolved", "missed"):
         if result[name]:
             yield say(f"{key}.{name}", count=result[name])
