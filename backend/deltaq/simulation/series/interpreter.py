@@ -1,184 +1,30 @@
 """Recurrences without code of their own: one function goes through their operations, the same for all models.
 
 It is there at once, where code for a model takes milliseconds to compile; for a step it takes two to three times as
-long. It does what `generated` writes, operation by operation, so that both give the same digits. All numbers of a model
-stand in its work space: the coefficients that sums need, order by order, and the sums; then for each place the
-coefficient of order k, that of order 0, and what its operation keeps. Truths of conditions, 1 or 0, are places behind
-the others.
+long. It does what `generated` writes, operation by operation, so that both give the same digits.
 """
 
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
-from functools import cached_property, partial
+from functools import partial
 
 from ...model import recurrences as r
-from ...model.recurrences import Operation, Recurrences, Term
-from ..kernels.taylor import MOST_ORDERS
-from .code import Code, MachineCode, address_of, compiled, shared
-from .generated import Jet, joined, wanted
+from ...model.recurrences import Recurrences
+from . import program as p
+from .code import Code, MachineCode, compiled, shared
+from .generated import Jet
 from .operations import COMPARISONS, Operands, first, kept, later
 from .shape import Shape
-from .sums import MOST_GROUPS, loops, terms_of, width_of_sums
 
-# Places in the program, which begins with the order: addresses of code and of numbers in the work space, sizes, and
-# lists, of which each has its place and its length.
-LOOP, ROW, SUMS, NOW, BEGIN, KEPT = 1, 2, 3, 4, 5, 6
-INPUTS, WIDTH, COMPONENTS, FIRST_PIVOT, FIRST_CONSTANT = 7, 8, 9, 10, 11
-BLOCKS, BLOCK, TOGETHER = 12, 13, 14  # of sums that one call finds: how many, their numbers, and sums in one
-BEGINNINGS, OPERATIONS, RATES, ARGUMENTS, PIVOTS, PLAIN, MULTIPLE = 15, 17, 19, 21, 23, 25, 27
-HEAD = 29
-RECORD = 9  # numbers of an operation
-KIND, A, B, C, CONSTANT, RESULT, FIRST_SUM = 0, 1, 2, 3, 4, 5, 6
-FUNCTION = FIRST_SUM  # of those that tell first coefficients
-
-# Kinds of first coefficients beside the codes of operations: conditions, and functions of the C library.
-TRUTH, SINE, COSINE, CALLED = 100, 200, 300, 400
-# Kinds of later ones: a sum or difference with γ a series, rounded once; the factor or the other one may be negative.
-JOINED, LESS, FROM = 500, 501, 502
 READ, NAME = re.compile(r" *(%\w+) = (?:load|getelementptr|add|fcmp) "), re.compile(r"%[\w.]+")
-SIMPLE = tuple(sorted(set(range(r.CHOICE + 1)) - r.WITH_FUNCTION))
 
 
 def interpreted(recurrences: Recurrences) -> Jet:
     """The series of some recurrences, interpreted."""
-    return Jet(interpreter(), Shape.of(recurrences), (layout := _Layout(recurrences)).size, layout.program)
-
-
-@dataclass(frozen=True)
-class _Layout:
-    """Where the numbers of a model stand, and the list of its operations."""
-
-    recurrences: Recurrences
-
-    @cached_property
-    def terms(self) -> tuple[Term, ...]:
-        return terms_of(self.recurrences)
-
-    @cached_property
-    def wanted(self) -> set[int]:
-        return wanted(self.recurrences)
-
-    @cached_property
-    def width(self) -> int:
-        return width_of_sums()
-
-    @property
-    def groups(self) -> int:
-        """Of sums, in a block."""
-        return max(1, min(MOST_GROUPS, -(-len(self.terms) // self.width)))
-
-    @property
-    def together(self) -> int:
-        return self.groups * self.width
-
-    @property
-    def blocks(self) -> int:
-        return -(-len(self.terms) // self.together)
-
-    @property
-    def row(self) -> int:
-        """Doubles of an order in a block: of each group u and v."""
-        return 2 * self.together
-
-    @property
-    def block(self) -> int:
-        return self.row * MOST_ORDERS
-
-    @property
-    def first_sum(self) -> int:
-        return self.blocks * self.block
-
-    @property
-    def first_place(self) -> int:
-        return self.first_sum + self.blocks * self.together
-
-    @property
-    def places(self) -> int:
-        return self.recurrences.inputs + len(self.recurrences.operations) + len(self.recurrences.conditions)
-
-    @property
-    def size(self) -> int:
-        """Doubles of work space."""
-        return self.first_place + 3 * self.places
-
-    @property
-    def program(self) -> tuple[int, ...]:
-        """What stands behind the order."""
-        r_, shape = self.recurrences, Shape.of(self.recurrences)
-        rates = [*range(r_.degrees, 2 * r_.degrees), *r_.accelerations, *(() if r_.power is None else (r_.power,))]
-        lists: dict[int, Sequence[Sequence[int]]] = {
-            BEGINNINGS: list(self._beginnings()),
-            OPERATIONS: list(self._operations()),
-            RATES: [[place] for place in rates],
-            ARGUMENTS: [[condition.argument] for condition in r_.conditions],
-            PIVOTS: [[place] for pair in r_.pivots for place in pair],
-            PLAIN: self._stored(is_multiple=False),
-            MULTIPLE: self._stored(is_multiple=True),
-        }
-        head = [0] * HEAD
-        head[LOOP] = loops(self.width).addresses[f"sums{self.groups}"]
-        head[ROW], head[SUMS] = self.row, self.first_sum
-        head[NOW], head[BEGIN], head[KEPT] = (self.first_place + number * self.places for number in range(3))
-        head[INPUTS], head[WIDTH], head[COMPONENTS] = r_.inputs, shape.width, shape.components
-        head[FIRST_PIVOT], head[FIRST_CONSTANT] = shape.first_pivot, shape.first_constant
-        head[BLOCKS], head[BLOCK], head[TOGETHER] = self.blocks, self.block, self.together
-        body: list[int] = []
-        for at, records in lists.items():
-            head[at : at + 2] = HEAD + len(body), len(records)
-            body += [number for record in records for number in record]
-        return (*head[1:], *body)
-
-    def _stored(self, *, is_multiple: bool) -> list[list[int]]:
-        """The places whose coefficients, or k times these, sums need, each with where in an order it belongs."""
-        found = []
-        for number, term in enumerate(self.terms):
-            block, rest = divmod(number, self.together)
-            group, lane = divmod(rest, self.width)
-            for side, (place, multiple) in enumerate(term):
-                if multiple is is_multiple:
-                    found.append([place, block * self.block + (2 * group + side) * self.width + lane])
-        return found
-
-    def _beginnings(self) -> Iterable[list[int]]:
-        """What tells the first coefficients: the operations, and before the first that needs it each condition."""
-        r_, known = self.recurrences, set[int]()
-        truths = r_.inputs + len(r_.operations)
-        for place, operation in enumerate(r_.operations, r_.inputs):
-            record = self._record(operation, place)
-            if operation.code == r.CHOICE:
-                if operation.a not in known:
-                    condition = r_.conditions[operation.a]
-                    yield [TRUTH + condition.kind, condition.argument, 0, 0, 0, truths + operation.a, *[0] * 3]
-                known.add(operation.a)
-                record[A] = truths + operation.a
-            if operation.code in r.WITH_FUNCTION:
-                record[C] = 0
-                name = r.FUNCTIONS[operation.c]
-                record[KIND] += {"sin": SINE, "cos": COSINE}.get(name, CALLED)
-                record[FUNCTION] = address_of(name)
-            yield record
-
-    def _operations(self) -> Iterable[list[int]]:
-        """What tells the later ones."""
-        r_, terms = self.recurrences, {term: number for number, term in enumerate(self.terms)}
-        for place, operation in enumerate(r_.operations, r_.inputs):
-            record = self._record(operation, place)
-            for number, term in enumerate(operation.sums(place)):
-                record[FIRST_SUM + number] = terms[term]
-            if operation.code == r.CHOICE:
-                record[A] = r_.inputs + len(r_.operations) + operation.a
-            if (one := joined(r_, operation)) is not None:
-                record[KIND] = FROM if one.is_from else LESS if one.is_less else JOINED
-                record[A], record[B], record[CONSTANT] = one.series, one.other, one.constant
-            if place in self.wanted:
-                yield record
-
-    @staticmethod
-    def _record(operation: Operation, place: int) -> list[int]:
-        return [operation.code, operation.a, operation.b, operation.c, operation.constant, place, *[0] * 3]
+    return Jet(interpreter(), Shape.of(recurrences), (layout := p.Layout(recurrences)).size, layout.program)
 
 
 def interpreter() -> MachineCode:
@@ -203,10 +49,10 @@ class _Writer:
     def write(self) -> None:
         """The first coefficients, then order by order the others."""
         code = self.code
-        head = {at: self.item(str(at)) for at in range(HEAD)}
-        now, begin, kept_, sums = (code.at("%work", head[at]) for at in (NOW, BEGIN, KEPT, SUMS))
-        constants = code.at("%given", head[FIRST_CONSTANT])
-        unit, time = code.load("%given", 0), code.new(f"sub i64 {head[INPUTS]}, 1")
+        head = {at: self.item(str(at)) for at in range(p.HEAD)}
+        now, begin, kept_, sums = (code.at("%work", head[at]) for at in (p.NOW, p.BEGIN, p.KEPT, p.SUMS))
+        constants = code.at("%given", head[p.FIRST_CONSTANT])
+        unit, time = code.load("%given", 0), code.new(f"sub i64 {head[p.INPUTS]}, 1")
         states = code.at("%given", 1)
 
         def input_of_0(number: str) -> None:
@@ -216,15 +62,15 @@ class _Writer:
             code.store(code.load(states, number), "%out", number)
 
         def pivot(number: str) -> None:
-            place = self.item(code.new(f"add i64 {head[PIVOTS]}, {number}"))
-            code.store(code.load(begin, place), "%out", code.new(f"add i64 {head[FIRST_PIVOT]}, {number}"))
+            place = self.item(code.new(f"add i64 {head[p.PIVOTS]}, {number}"))
+            code.store(code.load(begin, place), "%out", code.new(f"add i64 {head[p.FIRST_PIVOT]}, {number}"))
 
         self.times("input", time, input_of_0)
-        code.store(code.load(states, head[WIDTH]), begin, time)
+        code.store(code.load(states, head[p.WIDTH]), begin, time)
         firsts = _Firsts(self, begin, kept_, constants)
-        self._records("first", head[BEGINNINGS], head[BEGINNINGS + 1], firsts.write)
-        self.times("state", head[WIDTH], state_of_0)
-        self.times("pivot", head[PIVOTS + 1], pivot)
+        self._records("first", head[p.BEGINNINGS], head[p.BEGINNINGS + 1], firsts.write)
+        self.times("state", head[p.WIDTH], state_of_0)
+        self.times("pivot", head[p.PIVOTS + 1], pivot)
         self._conditions("zero", head, "0", begin)
         self._next("zero", head, "1", begin, now, code.divide(unit, code.number(1.0)))
         code.store(unit, now, time)
@@ -234,10 +80,10 @@ class _Writer:
             times = code.new(f"sitofp i64 {k} to double")
             laters = _Laters(self, begin, kept_, constants, now, sums, times, code.divide(code.number(1.0), times))
             self._sums(head, k, sums)
-            self._records("later", head[OPERATIONS], head[OPERATIONS + 1], laters.write)
-            row = code.at("%work", code.new(f"mul i64 {k}, {head[ROW]}"))
-            self._stored("plain", head[PLAIN], head[PLAIN + 1], now, row)
-            self._stored("multiple", head[MULTIPLE], head[MULTIPLE + 1], now, row, times)
+            self._records("later", head[p.OPERATIONS], head[p.OPERATIONS + 1], laters.write)
+            row = code.at("%work", code.new(f"mul i64 {k}, {head[p.ROW]}"))
+            self._stored("plain", head[p.PLAIN], head[p.PLAIN + 1], now, row)
+            self._stored("multiple", head[p.MULTIPLE], head[p.MULTIPLE + 1], now, row, times)
             self._conditions("any", head, k, now)
             following = code.new(f"add i64 {k}, 1")
             share = code.divide(unit, code.new(f"sitofp i64 {following} to double"))
@@ -275,7 +121,7 @@ class _Writer:
     def _records(self, name: str, start: str, count: str, body: Callable[[str], None]) -> None:
         """The body for the place of each record."""
         code = self.code
-        self.times(name, count, lambda i: body(code.new(f"add i64 {start}, {code.new(f'mul i64 {i}, {RECORD}')}")))
+        self.times(name, count, lambda i: body(code.new(f"add i64 {start}, {code.new(f'mul i64 {i}, {p.RECORD}')}")))
 
     def choice(self, name: str, kind: str, cases: Mapping[int, Callable[[], tuple[str, ...]]]) -> tuple[str, ...]:
         """What the case of a kind finds: some numbers, as many in each."""
@@ -309,40 +155,40 @@ class _Writer:
 
     def _sums(self, head: Mapping[int, str], k: str, sums: str) -> None:
         """The sums of an order, block by block."""
-        code, loop = self.code, self.code.new(f"inttoptr i64 {head[LOOP]} to ptr")
+        code, loop = self.code, self.code.new(f"inttoptr i64 {head[p.LOOP]} to ptr")
 
         def find(number: str) -> None:
-            block = code.at("%work", code.new(f"mul i64 {number}, {head[BLOCK]}"))
-            out = code.at(sums, code.new(f"mul i64 {number}, {head[TOGETHER]}"))
+            block = code.at("%work", code.new(f"mul i64 {number}, {head[p.BLOCK]}"))
+            out = code.at(sums, code.new(f"mul i64 {number}, {head[p.TOGETHER]}"))
             code.do(f"call void {loop}(ptr {block}, i64 {k}, ptr {out})")
 
-        self.times("block", head[BLOCKS], find)
+        self.times("block", head[p.BLOCKS], find)
 
     def _conditions(self, name: str, head: Mapping[int, str], order: str, values: str) -> None:
         """The arguments of conditions go out."""
         code = self.code
-        row = code.at("%out", code.new(f"mul i64 {order}, {head[COMPONENTS]}"))
+        row = code.at("%out", code.new(f"mul i64 {order}, {head[p.COMPONENTS]}"))
 
         def body(number: str) -> None:
-            place = self.item(code.new(f"add i64 {head[ARGUMENTS]}, {number}"))
-            code.store(code.load(values, place), row, code.new(f"add i64 {head[WIDTH]}, {number}"))
+            place = self.item(code.new(f"add i64 {head[p.ARGUMENTS]}, {number}"))
+            code.store(code.load(values, place), row, code.new(f"add i64 {head[p.WIDTH]}, {number}"))
 
-        self.times(f"condition.{name}", head[ARGUMENTS + 1], body)
+        self.times(f"condition.{name}", head[p.ARGUMENTS + 1], body)
 
     def _next(self, name: str, head: Mapping[int, str], order: str, values: str, now: str, share: str) -> None:
         """The state's coefficients of an order, from those of its rates before."""
         code = self.code
-        row = code.at("%out", code.new(f"mul i64 {order}, {head[COMPONENTS]}"))
+        row = code.at("%out", code.new(f"mul i64 {order}, {head[p.COMPONENTS]}"))
 
         def integrate(number: str) -> None:
-            place = self.item(code.new(f"add i64 {head[RATES]}, {number}"))
+            place = self.item(code.new(f"add i64 {head[p.RATES]}, {number}"))
             code.store(code.multiply(code.load(values, place), share), row, number)
 
         def keep(number: str) -> None:
             code.store(code.load(row, number), now, number)
 
-        self.times(f"rate.{name}", head[RATES + 1], integrate)
-        self.times(f"state.{name}", code.new(f"sub i64 {head[INPUTS]}, 1"), keep)
+        self.times(f"rate.{name}", head[p.RATES + 1], integrate)
+        self.times(f"state.{name}", code.new(f"sub i64 {head[p.INPUTS]}, 1"), keep)
 
 
 def _used(lines: Sequence[str], results: Sequence[str]) -> list[str]:
@@ -368,9 +214,9 @@ class _Firsts:
     def write(self, at: str) -> None:
         """Of the operation whose record begins at a place."""
         code, of = self.writer.code, self.writer.of_record
-        a0, b0, c0 = (code.load(self.begin, of(at, each)) for each in (A, B, C))
-        constant, result = code.load(self.constants, of(at, CONSTANT)), of(at, RESULT)
-        function = code.new(f"inttoptr i64 {of(at, FUNCTION)} to ptr")
+        a0, b0, c0 = (code.load(self.begin, of(at, each)) for each in (p.A, p.B, p.C))
+        constant, result = code.load(self.constants, of(at, p.CONSTANT)), of(at, p.RESULT)
+        function = code.new(f"inttoptr i64 {of(at, p.FUNCTION)} to ptr")
         truth = code.new(f"fcmp one double {a0}, {code.number(0.0)}")
 
         def found(kind: int, y0: str) -> tuple[str, str]:
@@ -387,13 +233,13 @@ class _Firsts:
             holds = code.is_true(comparison, a0)
             return code.select(holds, code.number(1.0), code.number(0.0)), code.number(0.0)
 
-        cases: dict[int, Callable[[], tuple[str, ...]]] = {kind: partial(simple, kind) for kind in SIMPLE}
-        cases |= {TRUTH + kind: partial(condition, each) for kind, each in COMPARISONS.items()}
+        cases: dict[int, Callable[[], tuple[str, ...]]] = {kind: partial(simple, kind) for kind in p.SIMPLE}
+        cases |= {p.TRUTH + kind: partial(condition, each) for kind, each in COMPARISONS.items()}
         for kind in r.WITH_FUNCTION:
-            cases[kind + SINE] = partial(simple, kind, "sin")
-            cases[kind + COSINE] = partial(simple, kind, "cos")
-            cases[kind + CALLED] = partial(called, kind)
-        y0, extra = self.writer.choice("kind", of(at, KIND), cases)
+            cases[kind + p.SINE] = partial(simple, kind, "sin")
+            cases[kind + p.COSINE] = partial(simple, kind, "cos")
+            cases[kind + p.CALLED] = partial(called, kind)
+        y0, extra = self.writer.choice("kind", of(at, p.KIND), cases)
         code.store(y0, self.begin, result)
         code.store(extra, self.kept, result)
 
@@ -414,18 +260,18 @@ class _Laters:
     def write(self, at: str) -> None:
         """Of the operation whose record begins at a place."""
         code, of = self.writer.code, self.writer.of_record
-        result = of(at, RESULT)
+        result = of(at, p.RESULT)
 
         def loaded(kind: int) -> Operands:
             """All operands; what a case does not use is not compiled."""
-            place = {each: of(at, each) for each in (A, B, C)}
-            a, b, c = (code.load(self.now, place[each]) for each in (A, B, C))
-            a0, b0, c0 = (code.load(self.begin, place[each]) for each in (A, B, C))
+            place = {each: of(at, each) for each in (p.A, p.B, p.C)}
+            a, b, c = (code.load(self.now, place[each]) for each in (p.A, p.B, p.C))
+            a0, b0, c0 = (code.load(self.begin, place[each]) for each in (p.A, p.B, p.C))
             y0, extra = code.load(self.begin, result), code.load(self.kept, result)
             if kind == r.CHOICE:
                 a = code.new(f"fcmp one double {a0}, {code.number(0.0)}")
-            sums = tuple(code.load(self.sums, of(at, FIRST_SUM + number)) for number in range(3))
-            constant = code.load(self.constants, of(at, CONSTANT))
+            sums = tuple(code.load(self.sums, of(at, p.FIRST_SUM + number)) for number in range(3))
+            constant = code.load(self.constants, of(at, p.CONSTANT))
             return Operands(a, b, c, a0, b0, c0, y0, extra, constant, sums, self.order, self.inverse)
 
         def simple(kind: int) -> tuple[str, ...]:
@@ -433,12 +279,12 @@ class _Laters:
 
         def of_product(kind: int) -> tuple[str, ...]:
             x = loaded(kind)
-            factor = code.negative(x.constant) if kind == LESS else x.constant
-            return (code.multiply_add(factor, x.a, code.negative(x.b) if kind == FROM else x.b),)
+            factor = code.negative(x.constant) if kind == p.LESS else x.constant
+            return (code.multiply_add(factor, x.a, code.negative(x.b) if kind == p.FROM else x.b),)
 
         cases: dict[int, Callable[[], tuple[str, ...]]] = {
-            kind: partial(simple, kind) for kind in (*SIMPLE, *r.WITH_FUNCTION)
+            kind: partial(simple, kind) for kind in (*p.SIMPLE, *r.WITH_FUNCTION)
         }
-        cases |= {kind: partial(of_product, kind) for kind in (JOINED, LESS, FROM)}
-        (value,) = self.writer.choice("operation", of(at, KIND), cases)
+        cases |= {kind: partial(of_product, kind) for kind in (p.JOINED, p.LESS, p.FROM)}
+        (value,) = self.writer.choice("operation", of(at, p.KIND), cases)
         code.store(value, self.now, result)
