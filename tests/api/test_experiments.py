@@ -188,6 +188,14 @@ REFUSED = [
         "stability-map", {**AXES, "y": AXES["x"]}, 422, "/y/parameter", "request-same-parameter", id="one parameter"
     ),
     pytest.param("stability-map", {**AXES, "x": {**AXES["x"], "to": 1.0}}, 422, "/x/to", "request-outside", id="range"),
+    pytest.param(
+        "stability-map",
+        {"scene": "kapitza", **AXES, "x": {**AXES["x"], "from": 0.0}},
+        422,
+        "/x/from",
+        "map-no-period",
+        id="a frequency of zero",
+    ),
     pytest.param("chaos", {"count": 5000}, 422, "/count", "request-too-large", id="map"),
     pytest.param("fidelity", {"tolerance": -1.0}, 422, "/tolerance", "request-too-small", id="tolerance"),
     pytest.param("fidelity", {"scene": {}}, 422, "/scene/bodies", "no-body", id="empty scene"),

@@ -136,6 +136,12 @@ def test_first_points_can_be_left_out() -> None:
 
 
 REFUSED = [
+    pytest.param(
+        {"scene": "double-pendulum", "initial": {"phi1": {"value": 1e12}}},
+        "angle-too-large",
+        "/initial/phi1/value",
+        id="an angle beside which there are no near numbers",
+    ),
     pytest.param({"scene": "pendulum"}, "section-one-degree", "/scene", id="nothing to cut"),
     pytest.param({"scene": "kapitza", "energy": 1.0}, "section-energy-driven", "/energy", id="no energy is kept"),
     pytest.param({"scene": OSCILLATORS, "plane": "m + 1"}, "section-plane-constant", "/plane", id="no plane"),

@@ -16,7 +16,7 @@ from types import MappingProxyType
 import numpy as np
 
 from ..contract.experiments.poincare_section import Direction, PoincareSectionRequest
-from ..errors import InputError, RequestError
+from ..errors import InputError, Parameter, RequestError, escaped
 from ..errors import Problem as Mistake
 from ..language.expression import Expression
 from ..language.parser import parse
@@ -33,6 +33,7 @@ from .subject import Subject
 
 SIGNS: Mapping[Direction, int] = MappingProxyType({"rising": 1, "falling": -1, "both": 0})
 LOST = 1e-7  # of the energy along the scene's own motion: more than rounding takes
+COARSE = 1e-6  # from an angle to the next number: more than can be drawn is lost
 
 
 @dataclass(frozen=True)
@@ -105,6 +106,7 @@ def section_of(request: PoincareSectionRequest, problem: Problem, observables: O
     Raises InputError that says what to ask instead: for a motion whose energy is lost, for a plane that is no plane.
     """
     scene, is_driven = observables.scene, observables.depends_on_time
+    _require_fine(request, problem)
     given = request.plane.strip()
     plane = parsed(given, scene, "/plane") if given else _usual_plane(scene, problem, path, is_driven=is_driven)
     function = observables.observable(plane)
@@ -119,6 +121,17 @@ def section_of(request: PoincareSectionRequest, problem: Problem, observables: O
     if not is_driven:
         _require_energy(found, path)
     return found
+
+
+def _require_fine(request: PoincareSectionRequest, problem: Problem) -> None:
+    """Raises RequestError where an angle is so large that the numbers beside it are no longer near."""
+    for place in np.flatnonzero(problem.angular):
+        value, name = problem.state[place], problem.model.layout.free[place]
+        gap = float(np.spacing(abs(value)))
+        if gap > COARSE:
+            told: dict[str, Parameter] = {"name": name, "value": float(value), "gap": float(f"{gap:.2g}")}
+            where = f"/initial/{escaped(name)}/value" if name in request.initial else "/scene"
+            raise RequestError(Mistake("angle-too-large", where, parameters=told))
 
 
 def _require_energy(section: Section, path: Floats) -> None:

@@ -7,16 +7,17 @@ Source: see `lab.monodromy`.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from time import perf_counter
 
 import numpy as np
 
 from ...contract.experiments.stability_map import MapAxis, StabilityMapRequest
+from ...errors import Parameter, RequestError, SceneError
 from ...errors import Problem as Mistake
-from ...errors import RequestError
 from ...language.tree import Name, walk
 from ...mechanics.requests import inside
+from ...mechanics.scene import Scene
 from ..charts.stability_map import charts
 from ..experiment import Experiment
 from ..minimal_subject import minimal_subject_of
@@ -60,17 +61,36 @@ def _axis(asked: MapAxis) -> Axis:
 def _periods(subject: Subject, first: Axis, second: Axis) -> np.ndarray:
     """The period at each point, worked out once for all points that share it.
 
-    Raises SceneError where the scene is not periodic.
+    Raises SceneError where the scene is not periodic, and RequestError where it is not at one value of an axis.
     """
     values = {p.name: p.value for p in subject.scene.parameters}
     with inside("/scene"):
         used = {node.name for clock in clocks(subject.scene) for node in walk(clock) if isinstance(node, Name)}
         columns = first.values if first.parameter in used else first.values[:1]
         rows = second.values if second.parameter in used else second.values[:1]
-        found = [
-            [period(subject.scene, values | {first.parameter: a, second.parameter: b}) for a in columns] for b in rows
-        ]
-    return np.ascontiguousarray(np.broadcast_to(np.array(found), (len(second.values), len(first.values))))
+        found = np.array(
+            [
+                [_period(subject.scene, values | {first.parameter: a, second.parameter: b}) for a in columns]
+                for b in rows
+            ]
+        )
+        if np.isnan(found).all():
+            period(subject.scene, values | {first.parameter: columns[0], second.parameter: rows[0]})
+    for key, axis, lost in (("x", first, np.isnan(found).all(axis=0)), ("y", second, np.isnan(found).all(axis=1))):
+        for index in np.flatnonzero(lost):
+            told: dict[str, Parameter] = {"name": axis.parameter, "value": axis.values[index]}
+            raise RequestError(Mistake("map-no-period", f"/{key}/from" if index == 0 else f"/{key}", parameters=told))
+    return np.ascontiguousarray(np.broadcast_to(found, (len(second.values), len(first.values))))
+
+
+def _period(scene: Scene, values: Mapping[str, float]) -> float:
+    """The period at these values of parameters, NaN where nothing depends on the time then."""
+    try:
+        return period(scene, values)
+    except SceneError as error:
+        if [problem.code for problem in error.problems] != ["no-period"]:
+            raise
+        return np.nan
 
 
 def _told(found: StabilityMap) -> Document:
