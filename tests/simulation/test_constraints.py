@@ -133,6 +133,14 @@ def test_every_method_keeps_constraints_and_comes_near(method: str) -> None:
     assert errors[1] < max(1.5 * errors[0] / 2**order, 1e-12), errors
 
 
+@pytest.mark.parametrize("method", [name for name in method_ids() if name != "taylor"])
+@pytest.mark.parametrize("scene", [pendulum(), four_bar()], ids=["pendulum", "four-bar"])
+def test_short_runs_do_not_wait_for_machine_code_of_long_ones(scene: Scene, method: str) -> None:
+    problem = replace(problem_of(scene, 0.1, 3), model=build(equations(scene), scene))
+    assert simulate(problem, get_method(method), step=0.01, with_error=False).outcome.status == "ok"
+    assert not problem.model.is_thorough
+
+
 def test_the_sleigh_turns_its_spin_into_speed() -> None:
     """v → √(v₀² + (J + ma²)ω₀²/m), v = c tanh(κt + artanh v₀/c): Bloch, Nonholonomic Mechanics and Control, §1.7."""
     speed, spin, m, inertia, a = 0.2, 1.5, 2.0, 0.3, 0.4

@@ -120,6 +120,11 @@ class Model:
         """The same as `motion`, in machine code whose compilation pays in long runs."""
         return compile_expressions(self.eqs.symbols.inputs, of_motion(self.eqs), THOROUGH)
 
+    @cached_property
+    def thorough_gaps(self) -> Compiled | None:
+        """The same as `gaps`, in code for long runs."""
+        return _missed(self.eqs, THOROUGH)
+
     def solution(self, *, is_long: bool) -> CompiledSolution | None:
         """Where there are constraints, the motion solved for in symbols, in code as `motion` or as `thorough`."""
         return self._thorough_solution if is_long else self._quick_solution
@@ -241,7 +246,7 @@ def build(eqs: Equations, scene: Scene, of: Callable[[Scene], Equations] = equat
     Raises SceneError if one of them has no real value whatever the inputs.
     """
     symbols = eqs.symbols
-    switches, held = _switches(eqs), eqs.constraints
+    switches = _switches(eqs)
     layout = Layout(
         symbols.free,
         symbols.guided,
@@ -260,7 +265,7 @@ def build(eqs: Equations, scene: Scene, of: Callable[[Scene], Equations] = equat
         compile_expressions(symbols.inputs, of_motion(eqs)),
         compile_expressions(symbols.inputs, eqs.events) if eqs.events else None,
         compile_expressions(symbols.inputs, switches) if switches else None,
-        compile_expressions(symbols.inputs, [*held.gaps, *held.slips]) if held.slips else None,
+        _missed(eqs, QUICK),
         eqs,
         scene,
         of,
@@ -268,6 +273,12 @@ def build(eqs: Equations, scene: Scene, of: Callable[[Scene], Equations] = equat
     if eqs.guided:  # what a guide prescribes may stand nowhere else, and have no value
         _ = model.observed
     return model
+
+
+def _missed(eqs: Equations, effort: int) -> Compiled | None:
+    """What `Model.gaps` computes."""
+    held = eqs.constraints
+    return compile_expressions(eqs.symbols.inputs, [*held.gaps, *held.slips], effort) if held.slips else None
 
 
 def of_motion(eqs: Equations) -> list[Expr]:

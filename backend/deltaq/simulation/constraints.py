@@ -51,8 +51,9 @@ def block(problem: Problem, *, is_long: bool = True, with_phase: bool = False, t
         outputs,
     )
     head[kernel.MOTION], head[kernel.MOTION_DATA] = motion.addresses
-    if model.gaps is not None:
-        head[kernel.GAPS], head[kernel.GAPS_DATA] = model.gaps.addresses
+    gaps = model.thorough_gaps if is_long else model.gaps
+    if gaps is not None:
+        head[kernel.GAPS], head[kernel.GAPS_DATA] = gaps.addresses
     if solution is not None:
         head[kernel.SOLVED], head[kernel.SOLVED_DATA] = solution.motion.addresses
         head[kernel.CORRECTED], head[kernel.CORRECTED_DATA] = solution.corrections.addresses

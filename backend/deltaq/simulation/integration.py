@@ -78,7 +78,7 @@ def _partitioned(scheme: Partitioned, arguments: KernelArguments) -> Result:
     if is_split(scheme, problem):
         return _split(scheme, arguments)
     kicked = problem.model.layout.holonomic if is_kicked(scheme, problem) else 0
-    phase = free_phase_of(problem) if is_kicked(scheme, problem) else phase_of(problem)
+    phase = free_phase_of(problem) if is_kicked(scheme, problem) else phase_of(problem, is_long=arguments.is_long)
     workspace = make_implicit_workspace(problem.state, problem.degrees, scheme.stages, kicked)
     weights = implicit_weights(scheme)
     return integrate_implicit(
@@ -204,12 +204,12 @@ def _switch_of(problem: Problem) -> Switch:
     return make_switch(function.addresses, function.outputs, inputs, problem.state.size)
 
 
-def phase_of(problem: Problem) -> Phase:
-    """Momenta and their rates of a problem, reactions included, for kernels."""
+def phase_of(problem: Problem, *, is_long: bool = True) -> Phase:
+    """Momenta and their rates of a problem, reactions included, for kernels; in code as `motion_of` has it."""
     found = free_phase_of(problem)
     if not problem.is_constrained:
         return found
-    memory = block(problem, with_phase=True)
+    memory = block(problem, is_long=is_long, with_phase=True)
     outputs = np.zeros(found.outputs.size + SIGNS)
     return found._replace(address=constrained_phase.address, data=memory.ctypes.data, outputs=outputs, memory=memory)
 
