@@ -74,6 +74,26 @@ def wire() -> Scene:
     )
 
 
+def string() -> Scene:
+    """A pendulum on a string that is hauled in and let out: what its rate along the string is changes the force."""
+    return scene(
+        {"x": (1.0, 0.0), "y": (0.0, 0.0)},
+        {"m": 1.0, "l": 1.0, "g": G, "a": 0.2, "Omega": 3.0},
+        [particle("bob", "x", "y")],
+        [equation("S", "x^2 + y^2 = (l + a*sin(Omega*t))^2")],
+    )
+
+
+def incline() -> Scene:
+    """A bead on an inclined straight wire."""
+    return scene(
+        {"x": (0.0, 0.3), "y": (0.0, -0.21)},
+        {"m": 1.0, "g": G, "k": 0.7},
+        [particle("bead", "x", "y")],
+        [equation("N", "y + k*x = 0")],
+    )
+
+
 def pushed() -> Scene:
     """A pendulum that a force pushes from a certain time on."""
     push = {"name": "push", "kind": "force", "at": "bob", "force": ["2*step(t - c)", "0"]}
@@ -89,6 +109,7 @@ HELD: dict[str, Callable[[float], Problem]] = {
     "four-bar, coupled masses": lambda t_end: problem_of(loop(), t_end, 41),
     "a rod beside the rod": lambda t_end: doubled(pendulum(), 1.25 * t_end),
     "moving pivot": lambda t_end: problem_of(pendulum(pivot=("0", "a*sin(Omega*t)")), t_end, 41),
+    "string let out": lambda t_end: problem_of(string(), t_end, 41),
     "turning wire": lambda t_end: problem_of(wire(), t_end, 41),
     "a force that jumps": lambda t_end: problem_of(pushed(), t_end, 41),
     "almost folding": lambda t_end: problem_of(parallelogram(), min(t_end, 0.5), 21),
@@ -110,6 +131,15 @@ def test_kicks_and_drifts_lead_where_stages_solved_for_lead(
     np.testing.assert_allclose(found.values, known.values, rtol=0.0, atol=1e-12)
     np.testing.assert_allclose(found.rates, known.rates, rtol=0.0, atol=1e-11)
     np.testing.assert_allclose(reactions(found), reactions(known), rtol=0.0, atol=1e-9)
+
+
+@pytest.mark.parametrize(("method", "late"), [(METHODS[0], 0.0), (METHODS[1], 1.0)])
+def test_half_a_million_steps_lose_nothing_to_rounding(method: str, late: float) -> None:
+    """On an incline the motion of both is known exactly: x = v₀t + ½at², or ½at(t + h)."""
+    step, a = 2e-6, 0.7 * G / (1.0 + 0.7**2)
+    found = stepped(problem_of(incline(), 1.0, 2), method, step)
+    assert found.values[-1, 0] == pytest.approx(0.3 + 0.5 * a * (1.0 + late * step), abs=3e-15)
+    assert found.rates[-1, 0] == pytest.approx(0.3 + a, abs=4e-15)
 
 
 def test_a_four_bar_by_places_moves_as_by_angles() -> None:
@@ -167,7 +197,9 @@ def test_energy_does_not_drift_in_two_thousand_periods(method: str) -> None:
 
 @pytest.mark.parametrize(("method", "order"), [(METHODS[0], 2), (METHODS[1], 1)])
 @pytest.mark.parametrize(
-    "held", [pendulum(pivot=("0", "a*sin(Omega*t)")), wire()], ids=["moving pivot", "turning wire"]
+    "held",
+    [pendulum(pivot=("0", "a*sin(Omega*t)")), wire(), string()],
+    ids=["moving pivot", "turning wire", "string let out"],
 )
 def test_what_moves_a_constraint_feeds_in_what_energy_gains(held: Scene, method: str, order: int) -> None:
     gaps = [balance(held, stepped(problem_of(held, 3.0, 151), method, step)) for step in (0.004, 0.001)]
