@@ -253,6 +253,14 @@ WRONG = [
     pytest.param(
         put("/coordinates/0/rate", math.inf), Problem("not-finite", "/coordinates/0/rate"), id="initial rate infinite"
     ),
+    *(
+        pytest.param(
+            put(f"/coordinates/0/{key}", number),
+            Problem("initial-too-large", f"/coordinates/0/{key}", parameters={"value": number, "most": 1e15}),
+            id=f"initial {key} {number}",
+        )
+        for key, number in (("value", 1e17), ("value", -1.1e15), ("rate", 1e16), ("rate", -1e300))
+    ),
     pytest.param(
         put("/parameters/0/value", 10**400), Problem("not-finite", "/parameters/0/value"), id="whole number too large"
     ),

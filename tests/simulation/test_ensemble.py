@@ -266,6 +266,17 @@ REFUSED = [
     pytest.param(
         {"scene": "bouncing-ball", "vary": {"initial.z.value": [1.0, -1.0]}}, "event-at-start", "/vary", id="below"
     ),
+    *(
+        pytest.param(
+            {"vary": {X: drawn}}, "initial-too-large", f"/vary/{X}/{place}", id=f"{place} of what is too large"
+        )
+        for place, drawn in (
+            ("from", {"from": -3e15, "to": 2e15, "count": 3}),
+            ("to", {"from": 0.0, "to": 2e15, "count": 3}),
+            ("normal", {"normal": [0.0, 1e15], "count": 50}),
+            ("1", [1.0, 1e17]),
+        )
+    ),
     pytest.param({"vary": {X: {"from": 1.0, "to": 2.0}}}, "missing-field", f"/vary/{X}/count", id="how many"),
     pytest.param({"vary": {"parameters.q": [1.0]}}, "ensemble-quantity", "/vary/parameters.q", id="unknown"),
     pytest.param({"vary": {X: [1.0]}, "t_end": 0.0}, "request-outside", "/t_end", id="no time"),

@@ -287,6 +287,14 @@ def test_auto_says_why(fields: dict[str, object], method: str, reason: str | Non
     assert answer["choice"] == ({"code": reason, "parameters": {}} if reason else None)
 
 
+@pytest.mark.parametrize("x", [-1e15, 1e15])
+def test_what_begins_at_the_largest_number_is_followed(x: float) -> None:
+    free = write_scene(oscillator("0"))
+    answer = ask(scene=free, initial={"x": {"value": x, "rate": 0.0}}, t_end=1.0)
+    assert answer["status"] == "ok"
+    assert answer["coordinates"]["x"][-1] == x
+
+
 def error(code: str, pointer: str, **parameters: object) -> Problem:
     return Problem(code, pointer, parameters=parameters)
 
@@ -295,6 +303,15 @@ KNOWN_METHODS = ", ".join(method_ids())
 PARTS = "coordinates, rates, positions, loads, multipliers, energy, power, error"
 HOSTILE = [
     pytest.param({"t_end": None}, RequestError, error("missing-field", "/t_end", field="t_end"), id="no end"),
+    *(
+        pytest.param(
+            {"initial": {"phi": {key: number}}},
+            RequestError,
+            error("initial-too-large", f"/initial/phi/{key}", value=number, most=1e15),
+            id=f"a {key} of {number}, from where no motion is followed",
+        )
+        for key, number in (("value", 1e17), ("rate", -2e15))
+    ),
     pytest.param({"t_end": math.nan}, RequestError, error("request-not-finite", "/t_end"), id="NaN"),
     pytest.param({"t_end": math.inf}, RequestError, error("request-not-finite", "/t_end"), id="infinity"),
     pytest.param({"t_end": 10**400}, RequestError, error("request-not-finite", "/t_end"), id="huge integer"),

@@ -3,10 +3,13 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
 from dataclasses import dataclass
 
 from ..errors import Problem
 from .checks import demand, latex_problem, name_problem, range_problems
+
+LARGEST = 1e15  # of initial values: no motion is followed beyond
 
 
 @dataclass(frozen=True)
@@ -29,3 +32,14 @@ class Coordinate:
         demand(
             name_problem(self.name), latex_problem(self.latex), rate, *range_problems(self.value, self.min, self.max)
         )
+        demand(*self._too_large())
+
+    def _too_large(self) -> Iterator[Problem]:
+        for key, number in (("/value", self.value), ("/rate", self.rate)):
+            if abs(number) > LARGEST:
+                yield too_large(number, key)
+
+
+def too_large(number: float, pointer: str) -> Problem:
+    """That a motion cannot begin with such a value or rate."""
+    return Problem("initial-too-large", pointer, parameters={"value": number, "most": LARGEST})

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
-from ..errors import Problem, RequestError, UnknownNameError, escaped
+from ..errors import Problem, RequestError, SceneError, UnknownNameError, escaped
 from .coordinate import Coordinate
 from .scene import Scene
 
@@ -28,7 +28,11 @@ def with_initial(scene: Scene, initial: Mapping[str, Mapping[str, float]], freez
 
 
 def _set(coordinate: Coordinate, given: Mapping[str, float]) -> Coordinate:
+    """Raises RequestError for values that no motion can begin with."""
     value, rate = given.get("value", coordinate.value), given.get("rate", coordinate.rate)
     low = None if coordinate.min is None else min(coordinate.min, value)
     high = None if coordinate.max is None else max(coordinate.max, value)
-    return replace(coordinate, value=value, rate=rate, min=low, max=high)
+    try:
+        return replace(coordinate, value=value, rate=rate, min=low, max=high)
+    except SceneError as error:
+        raise RequestError(*(one.below(f"/initial/{escaped(coordinate.name)}") for one in error.problems)) from None

@@ -12,6 +12,8 @@ from ..contract.ensemble import LARGEST, Drawn, EnsembleRequest, Evenly, Variati
 from ..contract.reading import read
 from ..errors import Problem as Mistake
 from ..errors import RequestError, SceneError, escaped
+from ..mechanics.coordinate import LARGEST as LARGEST_INITIAL
+from ..mechanics.coordinate import too_large
 from ..mechanics.requests import begun_scene, inside
 from ..mechanics.scene import Scene
 from .answer import Document
@@ -64,6 +66,7 @@ def varied_of(asked: EnsembleRequest, scene: Scene) -> Varied:
         raise RequestError(*mistakes)
     own = [_values(one, i) for i, one in enumerate(asked.vary.values())]
     _require_positive(asked, scene, own)
+    _require_beginning(asked, own)
     columns = _combined(own, asked.combine)
     count = len(columns[0])
     table = np.repeat(np.array([*problem.values, *problem.rates, *problem.parameters])[None, :], count, axis=0)
@@ -127,6 +130,26 @@ def _require_positive(asked: EnsembleRequest, scene: Scene, columns: list[Floats
             mistakes.append(Mistake("not-positive", pointer, parameters=told))
     if mistakes:
         raise RequestError(*mistakes)
+
+
+def _require_beginning(asked: EnsembleRequest, columns: list[Floats]) -> None:
+    """Raises RequestError for the first of each initial value that no motion is followed from."""
+    mistakes = []
+    for (name, variation), values in zip(asked.vary.items(), columns, strict=True):
+        beyond = np.flatnonzero(np.abs(values) > LARGEST_INITIAL)
+        if name.startswith("initial.") and beyond.size:
+            place = int(beyond[0])
+            pointer = f"/vary/{escaped(name)}/{_source_of(variation, float(values[place]), place)}"
+            mistakes.append(too_large(float(values[place]), pointer))
+    if mistakes:
+        raise RequestError(*mistakes)
+
+
+def _source_of(variation: Variation, value: float, index: int) -> str:
+    """Where in a variation a value of this size comes from."""
+    if isinstance(variation, Evenly):
+        return "from" if abs(variation.begin) >= abs(value) else "to"
+    return "normal" if isinstance(variation, Drawn) else str(index)
 
 
 def _place_of(variation: Variation, index: int) -> str:
