@@ -279,7 +279,7 @@ async def test_body_too_slow() -> None:
     async with httpx.AsyncClient(transport=transport, base_url="http://deltaq.test") as client:
         response = await client.post(SIMULATIONS, content=drip(), headers=JSON)
     assert response.json() == document(
-        "body-too-slow", 408, "The body came too slowly", detail="It must be complete within 0.2 seconds."
+        "body-too-slow", 408, "The body came too slowly", detail="The body must be complete within 0.2 seconds."
     )
 
 
@@ -302,8 +302,8 @@ HEAVY = document(
     "computation-too-large",
     504,
     "The computation is too large",
-    detail="It was stopped because it needs more time or memory than a request may take. Fewer coordinates, simpler "
-    "expressions, a shorter time span or a larger tolerance make it smaller.",
+    detail="The computation was stopped because it needs more time or memory than a request may take. Fewer "
+    "coordinates, simpler expressions, a shorter time span or a larger tolerance make it smaller.",
 )
 
 

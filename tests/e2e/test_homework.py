@@ -208,7 +208,7 @@ def test_both_motions_are_shown_and_the_solution_leads_to_its_step(lecture: Lect
     _answer_as_text(page, FALLING)
     _check(page, "wrong")
     page.get_by_role("button", name="Show both motions").click()
-    expect(page.locator(".motions .apart")).to_contain_text("They part at")
+    expect(page.locator(".motions .apart")).to_contain_text("The motions part at")
     page.wait_for_function(PARTED)
     desk = page.viewport_size
     page.set_viewport_size({"width": 360, "height": 740})

@@ -18,7 +18,7 @@ from pydantic import BaseModel
 from deltaq.contract.experiment import ExperimentRequest
 from deltaq.contract.figure import Chart
 from deltaq.lab.charts.chart import look
-from deltaq.lab.charts.words import called, spoken, words
+from deltaq.lab.charts.words import called, in_symbols, spoken, words
 from deltaq.lab.charts.work_precision import STORY
 from deltaq.lab.experiment import drawn
 from deltaq.lab.export import page, table
@@ -115,6 +115,30 @@ def test_a_time_says_when_and_under_which_load_it_was_measured(name: str) -> Non
     assert measured["load"] is None or measured["load"] >= 0.0
     assert measured["repetitions"] >= 1
     assert measured["processors"] == os.cpu_count()
+
+
+@pytest.mark.parametrize(
+    ("written", "shown"),
+    [
+        pytest.param("phi1", "φ₁", id="a coordinate"),
+        pytest.param("dot(phi1)", "φ̇₁", id="its rate"),
+        pytest.param("dot(phi1)^2 - 2*phi2", "φ̇₁² - 2·φ₂", id="both in a formula"),
+        pytest.param("sin(omega*t) + phi", "sin(ω·t) + phi", id="functions, and what the scene does not know"),
+        pytest.param("phi1^12 - x_phi1", "φ₁¹² - x_phi1", id="a name within another is none"),
+        pytest.param("bob", "bob", id="a part that has a word, no symbol"),
+    ],
+)
+def test_expressions_are_shown_by_the_symbols_of_the_scene(written: str, shown: str) -> None:
+    names = {"phi1": "φ₁", "phi2": "φ₂", "omega": "ω", "bob": {"de": "Kugel", "en": "bob"}}
+    assert in_symbols({"names": names}, written) == shown
+
+
+def test_the_plane_of_a_section_and_its_energy_are_told_with_symbol_and_unit() -> None:
+    *_, last = reports("poincare-section")
+    for lang, told in (("en", "J where φ₁ = 0"), ("de", "J, wo φ₁ = 0 ist")):
+        (chart, *_) = get_experiment("poincare-section").charts(last.result, words(text, lang))
+        assert told in chart["caption"]
+        assert chart["layout"]["yaxis"]["title"]["text"] == "φ̇₂"
 
 
 @pytest.mark.parametrize("lang", ["de", "en"])

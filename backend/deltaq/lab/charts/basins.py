@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from typing import Any
 
 from .chart import INK, PALETTE, Chart, Result, Trace, axis, chart
-from .words import Say, called
+from .words import Say, in_symbols
 
 KEY = "labs.basins"
 LIGHT = ("#56b4e9", "#e69f00", "#2fb38a", "#d99bc0", "#0072b2", "#d55e00", "#8f83ad", "#a5a52f")
@@ -22,7 +22,7 @@ def charts(result: Result, say: Say) -> list[Chart]:
 
 def _map(result: Result, say: Say) -> Chart:
     x, y, count = result["x"], result["y"], len(result["attractors"])
-    across, up = (_written(result, side["quantity"]) for side in (x, y))
+    across, up = (in_symbols(result, side["quantity"]) for side in (x, y))
     heat = {
         "type": "heatmap",
         "x": x["values"],
@@ -141,7 +141,7 @@ def _told(result: Result, say: Say) -> Iterator[str]:
     for number, one in enumerate(result["attractors"]):
         low, high = (100.0 * end for end in one["interval"])
         place = ", ".join(
-            f"{_written(result, name)} = {say(f'{KEY}.size', size=at['value'])}" for name, at in one["state"].items()
+            f"{in_symbols(result, name)} = {say(f'{KEY}.size', size=at['value'])}" for name, at in one["state"].items()
         )
         key = "cycle" if one.get("orbit") else "periodic" if one["period"] else "rest"
         yield say(
@@ -165,11 +165,3 @@ def _told(result: Result, say: Say) -> Iterator[str]:
             yield say(f"{KEY}.slim")
     elif result["neighbourhoods"]:
         yield say(f"{KEY}.no-dimension")
-
-
-def _written(result: Result, quantity: str) -> str:
-    """The symbol of a coordinate, or that of its rate."""
-    if not quantity.startswith("dot("):
-        return str(called(result, quantity))
-    symbol = str(called(result, quantity[4:-1]))
-    return f"{symbol[:1]}\u0307{symbol[1:]}"

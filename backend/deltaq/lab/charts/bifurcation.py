@@ -8,7 +8,7 @@ from itertools import groupby
 from typing import Any
 
 from .chart import INK, PALETTE, Chart, Result, Trace, axis, chart
-from .words import Say, called
+from .words import Say, called, in_symbols
 
 KEY = "labs.bifurcation"
 MOST_TOLD = 4  # bifurcations of a kind that the caption names
@@ -34,7 +34,7 @@ def charts(result: Result, say: Say) -> list[Chart]:
 def _diagram(result: Result, say: Say) -> Chart:
     traces = [*_sweeps(result, say), *_branches(result, say), *_marks(result, say, "seen")]
     across = called(result, result["parameter"])
-    axes = {"xaxis": axis(across), "yaxis": axis(_vertical(result))}
+    axes = {"xaxis": axis(across), "yaxis": axis(in_symbols(result, result["vertical"]))}
     return chart("bifurcation", say(f"{KEY}.diagram"), " ".join(_told(result, say)), traces, **axes)
 
 
@@ -169,7 +169,7 @@ def _told(result: Result, say: Say) -> Iterator[str]:
     told = {"count": len(result["up"]), "points": result["points"], "parameter": name}
     if result["plane"]:
         direction = say(f"labs.direction-{result['direction']}")
-        yield say(f"{KEY}.by-plane", plane=result["plane"], direction=direction, **told)
+        yield say(f"{KEY}.by-plane", plane=in_symbols(result, result["plane"]), direction=direction, **told)
     else:
         yield say(f"{KEY}.by-period", **told)
     for span in result["hysteresis"]:
@@ -200,13 +200,3 @@ def _ended(visits: Iterable[Any], say: Say) -> Iterator[str]:
     gone = sorted(visit["value"] for visit in visits if visit["status"] != "ok")
     if gone:
         yield say(f"{KEY}.ended", count=len(gone), start=gone[0], end=gone[-1])
-
-
-def _vertical(result: Result) -> str:
-    """The symbol of a coordinate or of its rate, any other expression as it was written."""
-    text = str(result["vertical"])
-    inner = text[4:-1]
-    if text.startswith("dot(") and text.endswith(")") and inner.isidentifier():
-        symbol = str(called(result, inner))
-        return f"{symbol[:1]}\u0307{symbol[1:]}"
-    return str(called(result, text)) if text.isidentifier() else text

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from typing import Any
 
 from .chart import INK, PALETTE, Chart, Result, Trace, axis, chart
-from .words import Say, called, in_minimal
+from .words import Say, in_minimal, in_symbols
 
 MOST_SHOWN = 12_000  # points that a picture has room for; of more, every second, third … of each orbit
 SIZE, OWN_SIZE, PALE = 3.0, 5.0, 0.35
@@ -19,9 +19,11 @@ def charts(result: Result, say: Say) -> list[Chart]:
 
 
 def _section(result: Result, say: Say) -> Chart:
-    axes = {"xaxis": axis(_axis_title(result, "horizontal")), "yaxis": axis(_axis_title(result, "vertical"))}
+    x, y = (axis(in_symbols(result, result[name])) for name in ("horizontal", "vertical"))
     caption = in_minimal(" ".join(filter(None, _told(result, say))), result, say)
-    return chart("poincare-section", say("labs.poincare-section.section"), caption, _traces(result, say), **axes)
+    return chart(
+        "poincare-section", say("labs.poincare-section.section"), caption, _traces(result, say), xaxis=x, yaxis=y
+    )
 
 
 def _traces(result: Result, say: Say) -> Iterator[Trace]:
@@ -83,7 +85,8 @@ def _accuracy(result: Result, say: Say) -> Chart:
 def _told(result: Result, say: Say) -> Iterator[str]:
     """What was measured, what was left out, and how well it is known, as sentences."""
     key = "labs.poincare-section"
-    orbits, told = result["orbits"], {name: result[name] for name in ("plane", "points", "energy", "regular")}
+    orbits, told = result["orbits"], {name: result[name] for name in ("points", "energy", "regular")}
+    told["plane"] = in_symbols(result, result["plane"])
     direction = say(f"labs.direction-{result['direction']}")
     yield say(f"{key}.{'driven' if result['driven'] else 'kept'}", **told, count=len(orbits), direction=direction)
     for name in ("forbidden", "unsolved", "missed"):
@@ -101,13 +104,3 @@ def _told(result: Result, say: Say) -> Iterator[str]:
     ended = sum(orbit["status"] not in ("ok", "horizon_reached") for orbit in orbits)
     if ended:
         yield say(f"{key}.ended", count=ended)
-
-
-def _axis_title(result: Result, name: str) -> str:
-    """What stands on an axis: the symbol of a coordinate or of its rate, any other expression as it was written."""
-    text = str(result[name])
-    inner = text[4:-1]
-    if text.startswith("dot(") and text.endswith(")") and inner.isidentifier():
-        symbol = str(called(result, inner))
-        return f"{symbol[:1]}\u0307{symbol[1:]}"
-    return str(called(result, text)) if text.isidentifier() else text

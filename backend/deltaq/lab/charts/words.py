@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Mapping
 from typing import Any, Protocol
 
 SUPERSCRIPTS = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
+DOTS = {"dot": "\u0307", "ddot": "\u0308"}
+_NAMED = re.compile(r"(?:(d?dot)\()(\w+)\)|[^\W\d]\w*")
 _UNTAGGED = str.maketrans("<>", "‹›")  # charts read tags in their texts
 COMMA = frozenset({"de"})  # languages with a decimal comma
 
@@ -30,6 +33,19 @@ def called(result: Mapping[str, Any], names: str) -> Any:
     known = result.get("names", {})
     several = names.split(", ")
     return known.get(names, names) if len(several) == 1 else ", ".join(str(known.get(name, name)) for name in several)
+
+
+def in_symbols(result: Mapping[str, Any], text: str) -> str:
+    """An expression as it was written, its names by the symbols of the scene: phi1 is φ₁, dot(x) ẋ, omega*t ω·t."""
+
+    def symbol(found: re.Match[str]) -> str:
+        rate, name = found.groups()
+        known = result.get("names", {}).get(name or found[0])
+        spelt = known if isinstance(known, str) else name or found[0]
+        return f"{spelt[:1]}{DOTS[rate]}{spelt[1:]}" if rate else spelt
+
+    named = _NAMED.sub(symbol, text).replace("*", "·")
+    return re.sub(r"\^(\d+)", lambda found: found[1].translate(SUPERSCRIPTS), named)
 
 
 def in_minimal(caption: str, result: Mapping[str, Any], say: Say) -> str:
