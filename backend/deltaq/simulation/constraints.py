@@ -59,9 +59,6 @@ def block(problem: Problem, *, is_long: bool = True, with_phase: bool = False, t
         head[kernel.CORRECTED], head[kernel.CORRECTED_DATA] = solution.corrections.addresses
     if phase is not None:
         head[kernel.PHASE], head[kernel.PHASE_DATA] = phase.addresses
-        held = model.phase.held if problem.rank == m else None
-        if held is not None:
-            head[kernel.HELD_PHASE], head[kernel.HELD_PHASE_DATA] = held.addresses
     head[kernel.TELLS_END] = tells_end
     first = kernel.HEAD + 2 * m
     head[kernel.HEAD : kernel.HEAD + m] = np.arange(m)

@@ -209,9 +209,13 @@ def phase_of(problem: Problem, *, is_long: bool = True) -> Phase:
     found = free_phase_of(problem)
     if not problem.is_constrained:
         return found
-    memory = block(problem, is_long=is_long, with_phase=True)
-    outputs = np.zeros(found.outputs.size + SIGNS)
-    return found._replace(address=constrained_phase.address, data=memory.ctypes.data, outputs=outputs, memory=memory)
+    memory, model = block(problem, is_long=is_long, with_phase=True), problem.model
+    held = model.phase.held if problem.rank == len(model.layout.multipliers) else None
+    general, place = constrained_phase.address, memory.ctypes.data
+    if held is None:
+        return found._replace(address=general, data=place, memory=memory)
+    (address, data), outputs = held.addresses, np.zeros(found.outputs.size + SIGNS)
+    return found._replace(address=address, data=data, outputs=outputs, general=general, block=place, memory=memory)
 
 
 def free_phase_of(problem: Problem) -> Phase:
@@ -220,7 +224,7 @@ def free_phase_of(problem: Problem) -> Phase:
     address, data = function.addresses
     inputs = np.zeros(function.inputs)
     inputs[2 * problem.degrees + 1 :] = problem.parameters
-    return Phase(address, data, problem.degrees, inputs, np.zeros(function.outputs), np.zeros(1))
+    return Phase(address, data, problem.degrees, inputs, np.zeros(function.outputs), 0, 0, np.zeros(1))
 
 
 @cache

@@ -10,14 +10,12 @@ from __future__ import annotations
 import numpy as np
 
 from .compiler import callback, inline, subroutine
-from .motion import FINE, LOCKED, NOT_FINITE, SINGULAR, SMALLEST_PIVOT, Floats, factor, holds, solve
+from .motion import FINE, LOCKED, NOT_FINITE, SINGULAR, SMALLEST_PIVOT, Floats, factor, solve
 from .pointer import call, doubles_at, prevent_vectorization
 from .ranked import factor_ranked, solve_ranked
 from .system import (
     COUNT,
     DEGREES,
-    HELD_PHASE,
-    HELD_PHASE_DATA,
     LOCKS,
     MOTION,
     MOTION_DATA,
@@ -219,11 +217,5 @@ def constrained_phase(out: int, given: int, data: int) -> None:
     """`phase_as_free` as a compiled function of phase space."""
     system = block_at(data)
     n = system.head[DEGREES]
-    signs = n * (n + 1) // 2 + 2 * n
-    outputs = doubles_at(out, signs + SIGNS)
-    if system.head[HELD_PHASE] != 0:
-        call(system.head[HELD_PHASE], system.head[HELD_PHASE_DATA], outputs, doubles_at(given, 2 * n + 1))
-        if holds(outputs, signs - n, n, signs):
-            return
     take_inputs(system, given)
-    phase_as_free(system, outputs)
+    phase_as_free(system, doubles_at(out, n * (n + 1) // 2 + 2 * n))

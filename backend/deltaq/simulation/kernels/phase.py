@@ -7,7 +7,7 @@ from typing import NamedTuple
 import numpy as np
 
 from .compiler import inline
-from .motion import FINE, NOT_FINITE, SINGULAR, SMALLEST_PIVOT, Floats, factor, solve
+from .motion import FINE, NOT_FINITE, SINGULAR, SMALLEST_PIVOT, Floats, factor, holds, solve
 from .pointer import call
 
 NUDGE = 1.5e-8  # of forward differences: the root of the rounding error
@@ -16,8 +16,11 @@ NUDGE = 1.5e-8  # of forward differences: the root of the rounding error
 class Phase(NamedTuple):
     """A compiled function of q, q̇, t: the packed lower triangle of M, p = ∂E/∂q̇ and ṗ = ∂E/∂q + Q.
 
-    `inputs` has shape (2n + 1 + parameters,), `outputs` shape (n (n + 1)/2 + 2n,). Where there are constraints, ṗ
-    contains their reactions, and `memory` keeps what the function reads.
+    `inputs` has shape (2n + 1 + parameters,), `outputs` shape (n (n + 1)/2 + 2n,).
+
+    Where there are constraints, ṗ contains their reactions, and behind it stand the signs of a solution in symbols (see
+    `model.solved`). Where these say that it does not hold, `general` is the address of a function that says the same by
+    numbers, else 0; `memory`, shape (size,), at the address `block`, keeps what it reads and writes.
     """
 
     address: int
@@ -25,6 +28,8 @@ class Phase(NamedTuple):
     degrees: int
     inputs: Floats
     outputs: Floats
+    general: int
+    block: int
     memory: Floats
 
 
@@ -50,6 +55,8 @@ def momenta(phase: Phase, t: float, q: Floats, v: Floats, p: Floats, rate: Float
     phase.inputs[2 * n] = t
     call(phase.address, phase.data, phase.outputs, phase.inputs)
     first = n * (n + 1) // 2
+    if phase.general != 0 and not holds(phase.outputs, first + n, n, first + 2 * n):
+        call(phase.general, phase.block, phase.outputs, phase.inputs)
     for i in range(n):
         p[i] = phase.outputs[first + i]
         rate[i] = phase.outputs[first + n + i]

@@ -15,10 +15,7 @@ from .pointer import doubles_at, integers_at
 # The integers that a block begins with.
 SIZE, DEGREES, COUNT, HOLONOMIC, POWERED, RANK, INPUTS, OUTPUTS, PHASE_OUTPUTS = 0, 1, 2, 3, 4, 5, 6, 7, 8
 MOTION, MOTION_DATA, GAPS, GAPS_DATA, PHASE, PHASE_DATA, LOCKS, IS_UNDER_WAY = 9, 10, 11, 12, 13, 14, 15, 16
-TELLS_END, SOLVED, SOLVED_DATA, CORRECTED, CORRECTED_DATA, HELD_PHASE, HELD_PHASE_DATA, HEAD = (
-    *(17, 18, 19, 20, 21, 22, 23),
-    24,
-)
+TELLS_END, SOLVED, SOLVED_DATA, CORRECTED, CORRECTED_DATA, HEAD = 17, 18, 19, 20, 21, 22
 SIGNS = 3  # that tell whether a solution in symbols holds
 
 
