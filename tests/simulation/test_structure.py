@@ -82,6 +82,18 @@ def test_energy_over_a_hundred_thousand_periods(identifier: str) -> None:
     assert errors[-400:].max() < 1.1 * errors[:400].max() + 1e-9
 
 
+@pytest.mark.parametrize("step", [0.02, 0.1, 0.3, 0.8])
+@pytest.mark.parametrize("identifier", ["implicit-midpoint", "variational-midpoint", "newmark", "gauss-4", "gauss-6"])
+def test_energy_of_linear_motions_is_kept_to_rounding_by_steps_of_any_size(identifier: str, step: float) -> None:
+    """These methods keep what is quadratic: half a period a step, and more, with springs of 7 s⁻¹."""
+    problem = replace(problem_of(load_scene("two-mass-oscillator"), 400 * step, 401), step_limit=10**6)
+    found = simulate(problem, get_method(identifier), step=step, with_error=False)
+    assert found.outcome.status == "ok"
+    seen = problem.model.observe(problem.inputs(found.times, np.hstack([found.values, found.rates])))
+    total = seen.kinetic + seen.potential
+    assert np.ptp(total) < 3e-13 * total[0]
+
+
 def test_other_methods_lose_energy() -> None:
     errors = energy_error("rk4", 10_000, 0.1)
     assert errors[-1] > 0.5

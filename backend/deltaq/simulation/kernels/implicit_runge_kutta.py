@@ -197,7 +197,7 @@ def integrate_implicit(
             evaluations += begin_step(phase, control, t, workspace)
             before_h, is_fresh, is_old = h, False, slowness > SLOW
             wanted = max(next_step(control, h, error), wanted if ends_piece else 0.0)
-        elif outcome != FINE and not is_fresh:
+        elif outcome != FINE and (not is_fresh or before_h > 0.0):
             before_h, is_old, outcome = 0.0, True, FINE
         else:
             before_h = 0.0

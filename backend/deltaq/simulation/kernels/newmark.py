@@ -8,7 +8,14 @@ from .compiler import kernel, runtime_int
 from .hermite import sample_between, watch_between
 from .loop import Result, advance_time, begin, interruption
 from .motion import FINE, HELD, NEWTON_FAILED, Floats, Motion, rhs
-from .newmark_step import NewmarkWeights, NewmarkWorkspace, accept_step, attempt_newmark
+from .newmark_step import (
+    KNOWN,
+    NewmarkWeights,
+    NewmarkWorkspace,
+    accept_step,
+    attempt_newmark,
+    forget_accelerations,
+)
 from .newton import SLOW
 from .plan import enter_piece, fit_step, record
 from .step_control import Control
@@ -46,6 +53,8 @@ def integrate_newmark(
             break
         h, ends_piece = fit_step(plan, piece, t, np.inf)
         was_fresh = needs_matrix or h != matrix_h
+        if jumped or h != matrix_h:
+            forget_accelerations(workspace)
         matrix_h = h
         outcome, made, slowness = attempt_newmark(motion, weights, t, h, 1 if was_fresh else 0, workspace)
         evaluations += made
@@ -64,8 +73,9 @@ def integrate_newmark(
             steps += 1
             t, time_compensation = advance_time(plan, piece, t, h, time_compensation, 1 if ends_piece else 0)
             record(plan, t, ends.old)
-        elif not was_fresh:
+        elif not was_fresh or workspace.remembered[KNOWN] > 0:
             needs_matrix, outcome = True, FINE
+            forget_accelerations(workspace)
     if outcome == NEWTON_FAILED:
         outcome = held_or_failed(motion, watch.switch, t, 2.0 * matrix_h, ends.old, ends.old_derivative, outcome)
     reached = watch.switch.when[0] if outcome == HELD else min(t, times[times.size - 1])

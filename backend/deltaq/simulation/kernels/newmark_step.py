@@ -25,6 +25,8 @@ from .phase import NUDGE
 from .step import LARGEST_VALUE
 
 MOST_ITERATIONS = 50
+DIFFERENCES = 6  # of accelerations that a first guess is made of, the accelerations themselves the first
+KNOWN, USEFUL = 0, 1
 
 
 class NewmarkWeights(NamedTuple):
@@ -38,7 +40,8 @@ class NewmarkWorkspace(NamedTuple):
     """Both ends of a step, digits below their rounding, the acceleration sought and the matrix of the iteration.
 
     `compensation` and `new_compensation` have shape (width,); `acceleration`, `residual`, `column` and `pivots` shape
-    (n,); `matrix` shape (n, n).
+    (n,); `matrix` shape (n, n). `differences`, shape (DIFFERENCES, n), are the backward ones of the accelerations that
+    were found in the last steps of the same size; `remembered`, shape (2,), is how many of them are KNOWN, and USEFUL.
     """
 
     ends: Ends
@@ -49,14 +52,61 @@ class NewmarkWorkspace(NamedTuple):
     column: Floats
     matrix: Floats
     pivots: Indices
+    differences: Floats
+    remembered: Indices
 
 
 def make_newmark_workspace(state: Floats, n: int) -> NewmarkWorkspace:
     """The workspace for n coordinates, at an initial state of shape (width,)."""
     wide, line = np.zeros(state.size), np.zeros(n)
     lines = (line, line.copy(), line.copy())
-    pivots = np.zeros(n, dtype=np.int64)
-    return NewmarkWorkspace(make_ends(state), wide, wide.copy(), *lines, np.zeros((n, n)), pivots)
+    matrix, pivots = np.zeros((n, n)), np.zeros(n, dtype=np.int64)
+    differences, remembered = np.zeros((DIFFERENCES, n)), np.zeros(2, dtype=np.int64)
+    return NewmarkWorkspace(make_ends(state), wide, wide.copy(), *lines, matrix, pivots, differences, remembered)
+
+
+@inline
+def guess_acceleration(workspace: NewmarkWorkspace) -> None:
+    """The first guess of the acceleration at the end: the polynomial through those of the last steps, carried on.
+
+    That is the sum of Newton's backward differences, of as many as are useful. Where constraints move the end of a
+    step, the acceleration there is another one than was found.
+    """
+    n, useful = workspace.residual.size, workspace.remembered[USEFUL]
+    for d in range(n):
+        guess = workspace.ends.old_derivative[n + d] if useful == 0 else 0.0
+        for k in range(useful):
+            guess += workspace.differences[k, d]
+        workspace.acceleration[d] = guess
+
+
+@inline
+def forget_accelerations(workspace: NewmarkWorkspace) -> None:
+    """Those behind a jump, of steps of another size or from where no step was found are of no use."""
+    workspace.remembered[KNOWN] = workspace.remembered[USEFUL] = 0
+
+
+@inline
+def remember_acceleration(workspace: NewmarkWorkspace) -> None:
+    """The acceleration that was found among the differences; those are useful which become smaller and smaller.
+
+    Where steps are long, or differences are rounding errors, they do not.
+    """
+    n, remembered = workspace.residual.size, workspace.remembered
+    known = min(remembered[KNOWN] + 1, DIFFERENCES)
+    useful, larger = known, np.inf
+    for d in range(n):
+        workspace.residual[d] = workspace.acceleration[d]
+    for k in range(known):
+        size = 0.0
+        for d in range(n):
+            difference, before = workspace.residual[d], workspace.differences[k, d]
+            workspace.differences[k, d], workspace.residual[d] = difference, difference - before
+            size = max(size, abs(difference))
+        if not size <= 0.5 * larger:
+            useful = min(useful, k)
+        larger = size
+    remembered[KNOWN], remembered[USEFUL] = known, useful
 
 
 @inline
@@ -110,7 +160,10 @@ def differentiate(motion: Motion, weights: NewmarkWeights, t: float, h: float, w
 def newton_iteration(
     motion: Motion, weights: NewmarkWeights, t: float, h: float, workspace: NewmarkWorkspace
 ) -> tuple[int, int, float]:
-    """Newton's iteration down to rounding; returns the outcome, the iterations, the ratio of the first corrections."""
+    """Newton's iteration down to rounding; returns the outcome, the iterations, the ratio of the first corrections.
+
+    That is 0 if there were but two, of which the second may be a rounding error.
+    """
     n, before, ratio, slowness = motion.degrees, np.inf, 0.0, 0.0
     for iteration in range(1, MOST_ITERATIONS + 1):
         update_state(weights, h, workspace)
@@ -134,7 +187,7 @@ def newton_iteration(
         is_rounding = ratio > 0.3 and correction <= 64.0 * floor
         if correction <= ROUNDING * size or left <= 0.1 * ROUNDING * size or is_rounding:
             update_state(weights, h, workspace)
-            return FINE, iteration, slowness
+            return FINE, iteration, slowness if iteration > 2 else 0.0
         if iteration > 3 and ratio >= 1.0:
             return NEWTON_FAILED, iteration, ratio
         before = correction
@@ -168,8 +221,7 @@ def attempt_newmark(
     Returns the outcome, the evaluations made, and the ratio of the first two corrections.
     """
     n, made, slowness, outcome = motion.degrees, 1, np.inf, FINE
-    for d in range(n):
-        workspace.acceleration[d] = workspace.ends.old_derivative[n + d]
+    guess_acceleration(workspace)
     if is_fresh != 0:
         outcome = FINE if differentiate(motion, weights, t + h, h, workspace) else NEWTON_FAILED
         made += 1 + n
@@ -184,6 +236,7 @@ def attempt_newmark(
 @inline
 def accept_step(workspace: NewmarkWorkspace) -> None:
     """The new state becomes the old one."""
+    remember_acceleration(workspace)
     for d in range(workspace.ends.old.size):
         workspace.ends.old[d], workspace.ends.old_derivative[d] = (
             workspace.ends.new[d],

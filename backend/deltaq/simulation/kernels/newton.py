@@ -24,9 +24,23 @@ SLOW = 0.002  # a ratio of corrections above which the derivatives are taken ane
 
 
 @inline
+def influence(h: float, n: int, stages: Stages) -> float:
+    """The largest part of the momenta that a change of all rates by one part of theirs makes of ṗ in a step."""
+    largest, m = 0.0, stages.linear
+    for k in range(n):
+        total = 0.0
+        for d in range(n):
+            total += h * (abs(m.damping[k, d]) + h * abs(m.stiffness[k, d]))
+        size = total / abs(m.mass[k, k]) if total > 0.0 else 0.0
+        largest = size if not size <= largest else largest
+    return largest
+
+
+@inline
 def assemble(weights: ImplicitWeights, h: float, stages: Stages) -> bool:
     """The matrix of the iteration, δᵢⱼM + h aᵢⱼA − h âᵢⱼD − h²(âa)ᵢⱼK, decomposed; False if it is singular."""
     count, n = stages.q.shape
+    stages.influence[0] = influence(h, n, stages)
     m = stages.linear
     for i in range(count):
         for j in range(count):
@@ -78,6 +92,28 @@ def take(stages: Stages) -> float:
 
 
 @inline
+def follow(weights: ImplicitWeights, h: float, stages: Stages) -> None:
+    """Qᵢ, p and r of every stage, evaluated before the last correction of Vᵢ, changed by it: to first order."""
+    count, n = stages.q.shape
+    m, change = stages.linear, stages.spare[0]
+    for i in range(count):
+        for d in range(n):
+            total = 0.0
+            for j in range(count):
+                total += weights.a[i, j] * stages.residual[j * n + d]
+            change[d] = h * total
+            stages.q[i, d] += change[d]
+        for k in range(n):
+            of_p, of_r = 0.0, 0.0
+            for d in range(n):
+                turned = stages.residual[i * n + d]
+                of_p += m.mass[k, d] * turned + m.shift[k, d] * change[d]
+                of_r += m.damping[k, d] * turned + m.stiffness[k, d] * change[d]
+            stages.p[i, k] += of_p
+            stages.r[i, k] += of_r
+
+
+@inline
 def rounding_floor(h: float, q: Floats, v: Floats, stages: Stages) -> tuple[float, float]:
     """The largest velocity, and what the rounding of positions makes of it over a step, ε |q|/h.
 
@@ -106,8 +142,9 @@ def newton(
     """Iterates until corrections are rounding errors, or (tolerance > 0) change positions by less than that.
 
     `now` = (t, h, tolerance). Where kicks keep constraints, each correction brings the new positions onto them as well.
+    The last correction changes what ṗ adds to the momenta, too, unless that is below their rounding.
 
-    Returns the outcome, the number of iterations and the ratio of the first two corrections.
+    Returns the outcome, the number of iterations and the ratio of the first two corrections, 0 if there were no more.
     """
     t, h, tolerance = now
     before, ratio, slowness = np.inf, 0.0, 0.0
@@ -123,11 +160,13 @@ def newton(
         ratio = correction / before if iteration > 1 else 0.0
         slowness = ratio if iteration == 2 else slowness
         left = correction * (ratio / (1.0 - ratio) if 0.0 < ratio < 1.0 else 1.0)
-        is_rounding = ratio > 0.3 and correction <= 1e-11 * speed + 64.0 * floor
-        if correction <= ROUNDING * speed or left <= 0.1 * ROUNDING * speed or is_rounding:
-            return FINE, iteration, slowness
-        if iteration > 1 and left * max(1.0, h) <= tolerance:
-            return FINE, iteration, slowness
+        is_done = correction <= ROUNDING * speed or left <= 0.1 * ROUNDING * speed
+        is_done = is_done or (ratio > 0.3 and correction <= 1e-11 * speed + 64.0 * floor)  # rounding errors
+        is_done = is_done or (iteration > 1 and correction <= floor and kicks.right.size > 0)  # g is not known better
+        if is_done or (iteration > 1 and left * max(1.0, h) <= tolerance):
+            if stages.influence[0] * correction > 0.1 * ROUNDING * speed:
+                follow(weights, h, stages)
+            return FINE, iteration, slowness if iteration > 2 else 0.0
         if iteration > 3 and ratio >= 1.0:
             return NEWTON_FAILED, iteration, ratio
         before = correction

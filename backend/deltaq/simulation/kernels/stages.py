@@ -40,8 +40,12 @@ class Stages(NamedTuple):
     """The s stages of a step, and the arrays of their iteration.
 
     `q`, `v`, `p` and `r` are positions, velocities, momenta and their rates, `last_v` the velocities of the step
-    before: shape (s, n). `matrix`, shape (s n, s n), `pivots` and `residual`, shape (s n,), are the linear system of
-    the iteration; `spare` has shape (4, n). `centre`, shape (2, n), is position and velocity in the middle of the step.
+    before, `carried` what these become when they are carried on: shape (s, n). `missed`, shape (2, s, n), is how far
+    that was off in the steps before, the latest first, of which so many, shape (1,), are `remembered`; −1 if the last
+    step was not as long as the one before. `matrix`, shape (s n, s n), `pivots` and `residual`, shape (s n,), are the
+    linear system of the iteration, and `influence`, shape (1,), what a change of rates makes of ṗ in a step, as a part
+    of the momenta; `spare` has shape (4, n). `centre`, shape (2, n), is position and velocity in the
+    middle of the step.
     """
 
     q: Floats
@@ -49,10 +53,14 @@ class Stages(NamedTuple):
     p: Floats
     r: Floats
     last_v: Floats
+    carried: Floats
+    missed: Floats
+    remembered: Indices
     matrix: Floats
     pivots: Indices
     residual: Floats
     linear: Linear
+    influence: Floats
     spare: Floats
     centre: Floats
 
@@ -60,10 +68,14 @@ class Stages(NamedTuple):
 def make_stages(stages: int, n: int) -> Stages:
     """The workspace of so many stages for n coordinates."""
     size, line, square = stages * n, np.zeros((stages, n)), np.zeros((n, n))
-    q, v, p, r, last = line, line.copy(), line.copy(), line.copy(), line.copy()
+    q, v, p, r, last, carried = line, line.copy(), line.copy(), line.copy(), line.copy(), line.copy()
+    missed, remembered = np.zeros((2, stages, n)), np.full(1, -1)
     linear = Linear(square, square.copy(), square.copy(), square.copy())
     matrix, pivots, residual = np.zeros((size, size)), np.zeros(size, dtype=np.int64), np.zeros(size)
-    return Stages(q, v, p, r, last, matrix, pivots, residual, linear, np.zeros((4, n)), np.zeros((2, n)))
+    influence, spare, centre = np.zeros(1), np.zeros((4, n)), np.zeros((2, n))
+    return Stages(
+        q, v, p, r, last, carried, missed, remembered, matrix, pivots, residual, linear, influence, spare, centre
+    )
 
 
 @inline
@@ -82,23 +94,45 @@ def lagrange_basis_before(c: Floats, x: float, j: int) -> float:
 
 
 @inline
-def predict(weights: ImplicitWeights, ratio: float, v: Floats, stages: Stages) -> None:
-    """First guesses of V: the polynomial through v at the start and the stages of the last step, carried on.
+def carry_on(weights: ImplicitWeights, ratio: float, v: Floats, stages: Stages) -> None:
+    """The polynomial through v at the start and the stages of the last step, carried on, into `carried`.
 
-    `v` has shape (n,). `ratio` is this step over the last one; 0 means that there was none.
+    `v` has shape (n,); `ratio` as `predict` has it.
     """
     count, n = stages.q.shape
     for i in range(count):
-        for d in range(n):
-            stages.last_v[i, d] = stages.v[i, d]
-            stages.v[i, d] = v[d]
-    for i in range(count):
         x = weights.c[i] * ratio  # in units of the last step, from its end
+        for d in range(n):
+            stages.carried[i, d] = v[d]
         for j in range(count):
             if x > 0.0 and weights.c[j] < 1.0:
                 part = lagrange_basis_before(weights.c, x, j)
                 for d in range(n):
-                    stages.v[i, d] += part * (stages.last_v[j, d] - v[d])
+                    stages.carried[i, d] += part * (stages.last_v[j, d] - v[d])
+
+
+@inline
+def predict(weights: ImplicitWeights, ratio: float, v: Floats, stages: Stages) -> None:
+    """First guesses of V: the polynomial of the last step carried on, and by how much that was off before.
+
+    That is known of steps of the same size, and carried on itself by a straight line where it changes little. `v`,
+    shape (n,), are the rates at the start. `ratio` is this step over the last one; 0 means that there was none.
+    """
+    count, n = stages.q.shape
+    known = min(stages.remembered[0] + 1, 2) if ratio == 1.0 else -1
+    size, change = 0.0, 0.0
+    for i in range(count):
+        for d in range(n):
+            before, missed = stages.missed[0, i, d], stages.v[i, d] - stages.carried[i, d]
+            stages.last_v[i, d], stages.missed[1, i, d], stages.missed[0, i, d] = stages.v[i, d], before, missed
+            size, change = max(size, abs(missed)), max(change, abs(missed - before))
+    carry_on(weights, ratio, v, stages)
+    is_smooth = known == 2 and change <= 0.5 * size
+    for i in range(count):
+        for d in range(n):
+            more = 2.0 * stages.missed[0, i, d] - stages.missed[1, i, d] if is_smooth else 0.0
+            stages.v[i, d] = stages.carried[i, d] + more
+    stages.remembered[0] = known
 
 
 @inline
