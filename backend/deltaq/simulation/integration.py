@@ -11,7 +11,6 @@ from numpy.typing import NDArray
 from ..model.recurrences import nudged
 from .constraints import block, solved_in
 from .kernels.constraints import constrained_motion, constrained_phase
-from .kernels.ensemble import aligned
 from .kernels.explicit_runge_kutta import integrate
 from .kernels.implicit_runge_kutta import integrate_implicit
 from .kernels.implicit_workspace import make_implicit_workspace
@@ -29,11 +28,12 @@ from .kernels.step import Weights, make_workspace
 from .kernels.step_control import Control
 from .kernels.switch import Switch, make_switch
 from .kernels.system import SIGNS, block_size
-from .kernels.taylor import integrate_series, make_series
+from .kernels.taylor import Addresses, integrate_series, make_series
 from .kernels.watch import NODES, NODES_OF_SERIES, Watch, make_watch, unwatched
 from .method import Newmark, Partitioned, Row, Scheme, Series, Tableau
 from .problem import Floats, Problem
 from .series.engine import jet_of_model
+from .series.single import single, told_of
 
 Flag = NDArray[np.int64]  # one number; anything but 0 ends the run
 
@@ -139,9 +139,16 @@ def _series(scheme: Series, arguments: KernelArguments) -> Result:
     constants = problem.model.latest("constants", parameters, lambda: recurrences.constants(np.array(parameters)))
     if arguments.is_nudged:
         constants, state = recurrences.nudged(constants), nudged(state)
-    order = arguments.order or scheme.order_for(arguments.control.tolerance)
-    sizes = (len(recurrences.conditions), jet.shape.components, jet.work)
-    series = make_series(jet.code.address, order, jet.program, sizes, state, constants)._replace(work=aligned(jet.work))
+    tolerance, steps = arguments.control.tolerance, single().addresses
+    order = arguments.order or scheme.order_for(tolerance)
+    series = make_series(
+        Addresses(jet.code.address, steps["advance"], steps["measure"]),
+        (order, *jet.program),
+        (2 * problem.degrees, len(recurrences.conditions), jet.shape.components, jet.work),
+        told_of(order, tolerance),
+        state,
+        constants,
+    )
     return integrate_series(
         arguments.motion,
         series,
@@ -163,7 +170,8 @@ def motion_of(problem: Problem, *, is_long: bool = True, tells_end: bool = True)
     inputs = np.zeros(motion.inputs)
     inputs[2 * problem.degrees + 1 :] = problem.parameters
     powered, outputs = problem.model.layout.is_powered, np.zeros(motion.outputs)
-    found = Motion(address, data, problem.degrees, powered, inputs, outputs, np.ones(1), 0, 0, 0, np.zeros(1))
+    conditioning = np.array((1.0,))
+    found = Motion(address, data, problem.degrees, powered, inputs, outputs, conditioning, 0, 0, 0, _no_memory())
     if not problem.is_constrained:
         return found
     memory = block(problem, is_long=is_long, tells_end=tells_end)
@@ -172,6 +180,12 @@ def motion_of(problem: Problem, *, is_long: bool = True, tells_end: bool = True)
     return found._replace(
         address=address, data=data, general=general, finish=constrained_finish.address, block=place, memory=memory
     )
+
+
+@cache
+def _no_memory() -> Floats:
+    """That of motions without constraints: nobody reads it, or writes there."""
+    return np.zeros(1)
 
 
 def watch_of(problem: Problem, flag: Flag, scheme: Scheme | None = None) -> Watch:

@@ -16,7 +16,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..model.recurrences import nudged
-from .kernels.ensemble import MARGINS, NEW, NEW_REST, PIVOTS, SIZES, TOLERANCE, UNIT, WANTED, aligned
+from .kernels.aligned import aligned
+from .kernels.ensemble import MARGINS, NEW, NEW_REST, PIVOTS, SIZES, TOLERANCE, UNIT, WANTED
 from .kernels.motion import FINE, NOT_FINITE, SINGULAR, STEP_LIMIT, STEP_UNDERFLOW, TOO_LARGE
 from .kernels.step import LARGEST_VALUE
 from .kernels.taylor import ALWAYS_UNNOTICED, PLACES, ROOM, SHORTER, UNNOTICED

@@ -104,19 +104,17 @@ class Steps:
     order: int | None = None
     is_nudged: bool = False
 
-    def plan(self, problem: Problem, method: Method) -> Plan:
+    def plan(self, t_end: float, degrees: int, method: Method) -> Plan:
         """Pieces and sizes as a kernel wants them; the last fixed step of an implicit method may go past the end."""
-        pieces = self.pieces or Pieces.whole(problem.t_end)
-        ends = np.array(pieces.ends)
-        if self.tolerance > 0.0:
-            sizes = pieces.bounded(self.size)
-        elif pieces.is_whole:
-            sizes = np.array([self.size / self.ratio])
+        pieces, size = self.pieces, self.size if self.tolerance > 0.0 else self.size / self.ratio
+        ends = np.array((t_end,) if pieces is None else pieces.ends)
+        if pieces is None or (self.tolerance == 0.0 and pieces.is_whole):
+            sizes = np.array((size,))
         else:
-            sizes = pieces.steps(self.size, self.ratio)
+            sizes = pieces.bounded(size) if self.tolerance > 0.0 else pieces.steps(self.size, self.ratio)
         if self.tolerance == 0.0 and not method.is_explicit:
             ends[-1] = np.inf
-        return make_plan(ends, sizes, 2 * problem.degrees, CAPACITY if self.is_recorded else 0)
+        return make_plan(ends, sizes, 2 * degrees, CAPACITY if self.is_recorded else 0)
 
 
 def run(problem: Problem, method: Method, times: Floats, cancelled: Flag, steps: Steps) -> Run:
@@ -131,8 +129,7 @@ def run(problem: Problem, method: Method, times: Floats, cancelled: Flag, steps:
     shortest = limit * stages <= SHORT
     known = float(times[-1]) / steps.size * steps.ratio * stages if steps.tolerance == 0.0 else 0.0
     if shortest or not (model.is_thorough or max(known, model.usage.evaluations) > SHORT):
-        few = replace(problem, step_limit=min(SHORT // stages, limit))
-        found = _run(few, method, times, cancelled, steps, is_long=False)
+        found = _run(problem, method, times, cancelled, steps, min(SHORT // stages, limit), is_long=False)
         model.usage.evaluations += found.result.evaluations
         if shortest or found.result.outcome not in (STEP_LIMIT, STIFF):
             return found
@@ -140,7 +137,7 @@ def run(problem: Problem, method: Method, times: Floats, cancelled: Flag, steps:
         found = _limited(problem, method, times, cancelled, steps)
         if found.result.outcome != STEP_LIMIT:
             return found
-    return _run(problem, method, times, cancelled, steps, is_long=True)
+    return _run(problem, method, times, cancelled, steps, limit, is_long=True)
 
 
 def _limited(problem: Problem, method: Method, times: Floats, cancelled: Flag, steps: Steps) -> Run:
@@ -148,7 +145,7 @@ def _limited(problem: Problem, method: Method, times: Floats, cancelled: Flag, s
     part, span = problem.step_limit // PART, float(times[-1] - times[0])
 
     def once(most: int) -> Run:
-        return _run(replace(problem, step_limit=most), method, times, cancelled, steps, is_long=True)
+        return _run(problem, method, times, cancelled, steps, most, is_long=True)
 
     found = once(part)
     gone = float(found.result.reached - times[0])
@@ -158,15 +155,18 @@ def _limited(problem: Problem, method: Method, times: Floats, cancelled: Flag, s
     return replace(found, result=found.result._replace(outcome=OUT_OF_REACH)) if is_lost else found
 
 
-def _run(problem: Problem, method: Method, times: Floats, cancelled: Flag, steps: Steps, *, is_long: bool) -> Run:
-    plan = steps.plan(replace(problem, t_end=float(times[-1])), method)
+def _run(
+    problem: Problem, method: Method, times: Floats, cancelled: Flag, steps: Steps, limit: int, *, is_long: bool
+) -> Run:
+    """A run of so many steps at most."""
+    plan = steps.plan(float(times[-1]), problem.degrees, method)
     is_series = isinstance(method.tableau, Series)
     if is_series:
         jet_of_model(problem.model, is_long=is_long)  # compiled before the time is taken
     arguments = KernelArguments(
         problem,
         motion_of(problem, is_long=is_long and not is_series, tells_end=not isinstance(method.tableau, Partitioned)),
-        _control(problem, method, steps, plan),
+        _control(limit, method, steps, plan),
         watch_of(problem, cancelled, method.tableau),
         np.ascontiguousarray(times),  # a kernel is compiled anew for an array with strides
         np.zeros((times.size, problem.state.size)),
@@ -211,13 +211,13 @@ def _found(arguments: KernelArguments, plan: Plan, result: Result, wall_time: fl
     )
 
 
-def _control(problem: Problem, method: Method, steps: Steps, plan: Plan) -> Control:
+def _control(limit: int, method: Method, steps: Steps, plan: Plan) -> Control:
     return Control(
         float(steps.tolerance),
         float(steps.size),
         float(method.error_order or method.order),
         float(method.memory),
-        int(problem.step_limit),
+        limit,
         int(method.tableau.stages),
         real_stability(method.tableau),
         plan,

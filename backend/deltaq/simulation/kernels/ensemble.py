@@ -6,12 +6,12 @@ of `taylor`, and so is the look at what it really did; where that is bad, the la
 
 from __future__ import annotations
 
-import math
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
+from .aligned import aligned
 from .compiler import inline, kernel
 from .motion import CANCELLED, FINE, NOT_FINITE, ROUNDING, SINGULAR, STEP_LIMIT, STEP_UNDERFLOW, TOO_LARGE, Floats
 from .pointer import call_jet
@@ -34,7 +34,6 @@ SHARE, KEPT, SCALE, INSIDE = 9, 10, 11, 12
 ROWS = 13
 LEAST_JET = 2  # orders
 FIRST_SCALE = 2.0**20
-LINE = 64  # bytes of a line of the cache
 GOES_ON, RESTS, ENDED = 1, 2, 3
 SMALLER, MOST_UNITS = 2.0**-12, 8  # of the unit of time, where the first coefficients are out of range
 Integers = NDArray[np.int64]
@@ -172,14 +171,6 @@ def make_lanes(
         np.zeros(count, dtype=np.int64),
         np.zeros(count, dtype=np.int64),
     )
-
-
-def aligned(*shape: int) -> Floats:
-    """Zeros, shape (…) as given, that begin a line of the processor's cache: no vector lies in two of them."""
-    count = math.prod(shape)
-    room = np.zeros(count + LINE // 8)
-    first = -room.ctypes.data % LINE // 8
-    return room[first : first + count].reshape(shape)
 
 
 @inline

@@ -64,8 +64,10 @@ def fit_step(plan: Plan, piece: int, t: float, wanted: float) -> tuple[float, bo
 def record(plan: Plan, t: float, state: Floats) -> None:
     """Records the end of a step, a state of shape (≥ 2n,); when the record is full, every second entry is dropped."""
     progress = plan.progress
+    if plan.times.size == 0:
+        return
     progress[SKIPPED] += 1
-    if plan.times.size == 0 or (progress[SKIPPED] < progress[STRIDE] and progress[COUNT] > 0):
+    if progress[SKIPPED] < progress[STRIDE] and progress[COUNT] > 0:
         return
     progress[SKIPPED] = 0
     if progress[COUNT] == plan.times.size:

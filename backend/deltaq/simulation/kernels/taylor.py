@@ -7,11 +7,13 @@ at its end tells what the step really did, for nothing: a step that is worse tha
 
 from __future__ import annotations
 
+from itertools import accumulate
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
+from .aligned import aligned
 from .compiler import inline, kernel, runtime_int, subroutine
 from .loop import Result, advance_time, begin, interruption
 from .motion import (
@@ -28,7 +30,6 @@ from .motion import (
 )
 from .plan import enter_piece, fit_step, record
 from .pointer import call_jet
-from .step import LARGEST_VALUE
 from .step_control import Control, is_resolvable
 from .switch import AHEAD, detect_hold, held_or_failed, is_held_before
 from .watch import Watch, check_events, set_sample_times
@@ -40,55 +41,85 @@ PLACES = 16  # of a step in which the sign of a condition's argument is looked a
 ROOM = 4.0  # units in the last place of a time by which a step goes past the zero of such an argument
 
 
+# Rows of states: where the step begins and ends, what rounding has left of both, and h ẋ at its end.
+OLD, NEW, OLD_REST, NEW_REST, SLOPES = 0, 1, 2, 3, 4
+STATES, LANES = 5, 4  # how many rows, and how many components one vector has
+# What the code is told of a step, and tells: θ, the step before and H in units of time; of the order and the tolerance
+# (`single.told_of`); whether the state fits, the size of the series, the defect, the step wanted; the units of rows.
+THETA, GONE, UNIT, TOLERANCE, SAFETY, SHARES, FITS, SIZE, DEFECT, WANTED, UNITS = 0, 1, 2, 3, 4, 5, 7, 8, 9, 10, 11
+TOLD = 13
+# And in integers: the order, the components of a row, the vectors of a state, its width, how many of it are judged.
+ORDER, COMPONENTS, VECTORS, WIDTH, JUDGED = 0, 1, 2, 3, 4
+
+
+class Addresses(NamedTuple):
+    """Addresses: of what finds coefficients, of what goes a step, and of what tells what it did (`series.single`)."""
+
+    jet: int
+    step: int
+    measure: int
+
+
 class Series(NamedTuple):
     """Code for Taylor coefficients with the arrays that it reads and writes.
 
-    `given`, shape (numbers,), holds the unit of time, the state, t and constants; `coefficients`, shape (2,
-    MOST_ORDERS, components), the rows of this step and of the next: a state, arguments of so many `conditions`, and in
-    row 0 the pivots with their diagonal entries. `work`, shape (numbers,), is room for the code; `program`, shape
-    (≥ 1,), begins with the order. `units`, shape (2,), are the units of time of both steps. The states `old` and `new`
-    and what Kahan's summation keeps of them, `compensation` and `new_compensation`, have shape (width,), as
-    `slopes`, h ẋ at the end of a step.
+    `given`, shape (numbers,), holds the unit of time, the state, t and constants; `coefficients`, shape (2, order + 1,
+    components), the rows of this step and of the next: a state, arguments of so many `conditions`, and in row 0 the
+    pivots with their diagonal entries. `work`, shape (numbers,), is room for the code; `program`, shape (≥ 1,), begins
+    with the order. `states` has shape (STATES, ≥ width), `told`, shape (TOLD,), what the code is told of steps, and
+    tells; `plan`, shape (5,), the sizes of all this.
     """
 
-    address: int
+    code: Addresses
     order: int
+    width: int
     conditions: int
     given: Floats
     coefficients: Floats
     work: Floats
     program: NDArray[np.int64]
-    units: Floats
-    old: Floats
-    compensation: Floats
-    new: Floats
-    new_compensation: Floats
-    slopes: Floats
+    states: Floats
+    told: Floats
+    plan: NDArray[np.int64]
 
 
 def make_series(
-    address: int, order: int, program: tuple[int, ...], sizes: tuple[int, int, int], state: Floats, constants: Floats
+    code: Addresses,
+    program: tuple[int, ...],
+    sizes: tuple[int, int, int, int],
+    told: tuple[float, ...],
+    state: Floats,
+    constants: Floats,
 ) -> Series:
-    """The arrays for code at an address; `sizes` are the conditions, the components of a row, and the work space.
+    """The arrays for code whose program begins with the order; they lie in one block.
 
-    `state` has shape (width,), `constants` shape (constants,).
+    `sizes` are how many are judged, the conditions, the components of a row, and the work space; `told` is what begins
+    at TOLERANCE. `state` has shape (width,), `constants` shape (constants,).
     """
-    conditions, components, work = sizes
-    given = np.array([1.0, *state, 0.0, *constants])
+    order, width = program[0], state.size
+    judged, conditions, components, work = sizes
+    vectors = -(-width // LANES)
+    length, row = vectors * LANES, (order + 1) * components
+    lengths = (-(-work // 8) * 8, STATES * length, TOLD, width + 2 + constants.size, 2 * row)
+    ends = list(accumulate(lengths))
+    block = aligned(ends[-1] + LANES)  # the last vector goes past the last row
+    of_work, states, of_steps, given = (block[end - size : end] for end, size in zip(ends[:-1], lengths, strict=False))
+    given[0], given[1 : 1 + width], given[2 + width :] = 1.0, state, constants
+    of_steps[TOLERANCE : TOLERANCE + len(told)] = told
+    for row in (OLD, NEW):
+        states[row * length : row * length + width] = state
     return Series(
-        address,
+        code,
         order,
+        width,
         conditions,
         given,
-        np.zeros((2, MOST_ORDERS, components)),
-        np.zeros(work),
-        np.array([order, *program], dtype=np.int64),
-        np.ones(2),
-        state.copy(),
-        np.zeros_like(state),
-        state.copy(),
-        np.zeros_like(state),
-        np.zeros_like(state),
+        block[ends[-2] : ends[-1]].reshape(2, order + 1, components),
+        of_work,
+        np.array(program),
+        states.reshape(STATES, length),
+        of_steps,
+        np.array((order, components, vectors, width, judged)),
     )
 
 
@@ -101,52 +132,34 @@ class Choice(NamedTuple):
 
 
 @subroutine
-def expand(series: Series, row: int, t: float, state: Floats, motion: Motion, near: float) -> int:
-    """The coefficients at a state of shape (width,), in a power of two not far from `near` as the unit of time.
+def expand(series: Series, row: int, t: float, motion: Motion, near: float, gone: float) -> int:
+    """The coefficients at the new state, in a power of two not far from `near` as the unit of time.
 
-    So they stay in range, however fast the motion is; the unit is halved many times where they do not. Returns FINE,
-    SINGULAR or NOT_FINITE.
+    So they stay in range, however fast the motion is; the unit is halved many times where they do not. They tell of a
+    step of `gone` seconds before. Returns FINE, SINGULAR or NOT_FINITE.
     """
-    width, outcome = state.size, NOT_FINITE
-    coefficients, unit = series.coefficients[row], series.given[0]
+    width, outcome, told, given = series.width, NOT_FINITE, series.told, series.given
+    coefficients, unit = series.coefficients[row], given[0]
     if not (0.25 * unit <= near <= 4.0 * unit):
         unit = 2.0 ** np.floor(np.log2(near))
+    for d in range(width):
+        given[1 + d] = series.states[NEW, d]
+    given[1 + width] = t
     for _ in range(4):
-        series.given[0] = series.units[row] = unit
-        for d in range(width):
-            series.given[1 + d] = state[d]
-        series.given[1 + width] = t
-        call_jet(series.address, coefficients, series.given, series.work, series.program)
-        place = width + series.conditions
-        for i in range(place, coefficients.shape[1], 2):
+        given[0] = told[UNIT] = told[UNITS + row] = unit
+        told[GONE] = gone / unit
+        call_jet(series.code.jet, coefficients, given, series.work, series.program)
+        for i in range(width + series.conditions, coefficients.shape[1], 2):
             pivot, diagonal = coefficients[0, i], coefficients[0, i + 1]
             if not pivot > SMALLEST_PIVOT * diagonal:
                 return NOT_FINITE if np.isnan(pivot) else SINGULAR
             motion.conditioning[0] = min(motion.conditioning[0], pivot / diagonal)
-        total = 0.0
-        for d in range(2 * motion.degrees):
-            total += abs(coefficients[1, d]) + abs(coefficients[series.order, d])
-        if total < np.inf:
+        call_jet(series.code.measure, coefficients, series.states, told, series.plan)
+        if told[SIZE] < np.inf:
             outcome = FINE
             break
         unit *= 2.0**-24
     return outcome
-
-
-@inline
-def wanted_step(series: Series, row: int, tolerance: float, degrees: int) -> float:
-    """The step by which the last two coefficients of (q, q̇) shrink to the tolerance: (ε/|xₖ|)^(1/k)."""
-    coefficients, order = series.coefficients[row], series.order
-    last, before = 0.0, 0.0
-    for d in range(2 * degrees):
-        scale = 1.0 / max(1.0, abs(coefficients[0, d]))
-        last = max(last, abs(coefficients[order, d]) * scale)
-        before = max(before, abs(coefficients[order - 1, d]) * scale)
-    steepest = max(
-        np.log(last / tolerance) / order if last > 0.0 else -np.inf,
-        np.log(before / tolerance) / (order - 1.0) if before > 0.0 else -np.inf,
-    )
-    return float(series.units[row] * np.exp(-0.7 / (order - 1.0) - steepest))
 
 
 @inline
@@ -160,38 +173,15 @@ def increment(series: Series, row: int, d: int, theta: float) -> float:
 
 @inline
 def advance(series: Series, row: int, h: float) -> int:
-    """The state after a step of size h by Kahan's summation, and what its series ends with as h ẋ, into `slopes`.
-
-    Returns the outcome. All components go through the orders together, by Horner's rule, as a processor likes best.
-    """
-    theta, width = h / series.units[row], series.old.size
-    values, slopes, coefficients = series.new_compensation, series.slopes, series.coefficients
-    for d in range(width):
-        values[d] = coefficients[row, series.order, d]
-        slopes[d] = 0.0
-    for k in range(series.order - 1, 0, -1):
-        for d in range(width):
-            slopes[d] = slopes[d] * theta + values[d]
-            values[d] = values[d] * theta + coefficients[row, k, d]
-    outcome = FINE
-    for d in range(width):
-        slopes[d] = theta * (values[d] + theta * slopes[d])
-        change = values[d] * theta + series.compensation[d]
-        series.new[d] = series.old[d] + change
-        series.new_compensation[d] = change - (series.new[d] - series.old[d])
-        if not abs(series.new[d]) <= LARGEST_VALUE:
-            outcome = NOT_FINITE if np.isnan(series.new[d]) else TOO_LARGE
-    return outcome
-
-
-@inline
-def defect_of(series: Series, row: int, h: float, degrees: int) -> float:
-    """h |x′ − f| at the end of a step, x′ the derivative of its series and f that of the next; over max(1, |x|)."""
-    theta, largest = h / series.units[1 - row], 0.0
-    for d in range(2 * degrees):
-        apart = abs(series.slopes[d] - theta * series.coefficients[1 - row, 1, d])
-        largest = max(largest, apart / max(1.0, abs(series.new[d])))
-    return largest
+    """The state after a step of size h with its rest, and what its series ends with as h ẋ; returns the outcome."""
+    series.told[THETA] = h / series.told[UNITS + row]
+    call_jet(series.code.step, series.coefficients[row], series.states, series.told, series.plan)
+    if series.told[FITS] == 1.0:
+        return FINE
+    for d in range(series.width):
+        if np.isnan(series.states[NEW, d]):
+            return NOT_FINITE
+    return TOO_LARGE
 
 
 @inline
@@ -234,8 +224,8 @@ def first_change(series: Series, row: int, t: float, h: float) -> float:
     """Where in a step of size h the first argument of a condition changes its sign, and a little further; else h."""
     found = h
     for c in range(series.conditions):
-        column = series.coefficients[row, :, series.old.size + c]
-        at = sign_change(column, series.order, series.units[row], found)
+        column = series.coefficients[row, :, series.width + c]
+        at = sign_change(column, series.order, series.told[UNITS + row], found)
         if at >= 0.0:
             found = min(found, at + ROOM * ROUNDING * max(t, h))
     return found
@@ -251,9 +241,10 @@ def sample_series(series: Series, row: int, t: float, h: float, times: Floats, o
     reached = t + h
     is_last = reached >= times[count - 1] - 1e-9 * h
     while first < count and (is_last or times[first] <= reached):
-        theta = min(times[first] - t, h) / series.units[row]
-        for d in range(series.old.size):
-            out[first, d] = series.old[d] + (increment(series, row, d, theta) + series.compensation[d])
+        theta = min(times[first] - t, h) / series.told[UNITS + row]
+        for d in range(series.width):
+            grows = increment(series, row, d, theta) + series.states[OLD_REST, d]
+            out[first, d] = series.states[OLD, d] + grows
         first += 1
     return first
 
@@ -269,10 +260,9 @@ def watch_series(series: Series, row: int, t: float, h: float, watch: Watch, deg
 
 
 @inline
-def choose_step(series: Series, row: int, control: Control, piece: int, t: float, least: float, n: int) -> Choice:
-    """The step by its series, the piece and the conditions."""
-    wanted = wanted_step(series, row, control.tolerance, n) if control.tolerance > 0.0 else np.inf
-    h, ends_piece = fit_step(control.plan, piece, t, min(wanted, least))
+def choose_step(series: Series, row: int, control: Control, piece: int, t: float, most: float) -> Choice:
+    """A step of up to `most` seconds, by the piece and the conditions."""
+    h, ends_piece = fit_step(control.plan, piece, t, most)
     cut = first_change(series, row, t, h) if series.conditions > 0 else h
     return Choice(cut, ends_piece and cut >= h, cut < h)
 
@@ -282,10 +272,10 @@ def try_step(series: Series, row: int, t: float, step: Choice, motion: Motion) -
     """The state behind a step and the series there; returns the outcome and the defect."""
     outcome = advance(series, row, step.size)
     if outcome == FINE:
-        outcome = expand(series, 1 - row, t + step.size, series.new, motion, step.size)
+        outcome = expand(series, 1 - row, t + step.size, motion, step.size, step.size)
     if outcome != FINE or step.is_cut:
         return outcome, ROOM * ROUNDING * max(t, step.size)
-    return FINE, defect_of(series, row, step.size, motion.degrees)
+    return FINE, series.told[DEFECT]
 
 
 @inline
@@ -304,11 +294,11 @@ def retried(control: Control, t: float, h: float, outcome: int) -> int:
 
 
 @inline
-def accept_step(series: Series) -> None:
-    """The new state becomes the old one."""
-    for d in range(series.old.size):
-        series.old[d] = series.new[d]
-        series.compensation[d] = series.new_compensation[d]
+def accept_step(states: Floats) -> None:
+    """The new state becomes the old one; `states` has shape (STATES, ≥ width)."""
+    for d in range(states.shape[1]):
+        states[OLD, d] = states[NEW, d]
+        states[OLD_REST, d] = states[NEW_REST, d]
 
 
 @kernel
@@ -317,26 +307,28 @@ def integrate_series(
 ) -> Result:
     """Steps from times[0] to times[-1]; out[i] becomes the state at times[i], as far as all goes well.
 
-    The initial state stands in `series.old`. `derivative` has shape (width,), `times` shape (samples,), `out` shape
-    (samples, width).
+    The initial state stands in the first two rows of `series.states`. `derivative` has shape (width,), `times` shape
+    (samples,), `out` shape (samples, width).
     """
     t, time_compensation, plan, n = times[0], 0.0, control.plan, motion.degrees
-    outcome = begin(motion, plan, watch, t, series.old, derivative, out)
+    old, new = series.states[OLD, : series.width], series.states[NEW, : series.width]
+    outcome = begin(motion, plan, watch, t, old, derivative, out)
     row, piece, filled, steps, rejected = runtime_int(0), runtime_int(0), runtime_int(1), runtime_int(0), runtime_int(0)
-    is_known, least, near = False, np.inf, control.largest_step
+    is_known, least, near, wanted = False, np.inf, control.largest_step, np.inf
     fixed, evaluations = 0 if control.tolerance > 0.0 else 1, runtime_int(1)
     while filled < times.size and outcome == FINE:
         outcome = interruption(control, steps + rejected, watch)
         piece, t, jumped = enter_piece(plan, piece, t)
         if jumped:
             time_compensation, is_known = 0.0, False
-            record(plan, t, series.old)
+            record(plan, t, old)
         if outcome == FINE and not is_known:
-            outcome = expand(series, row, t, series.old, motion, near)
+            outcome = expand(series, row, t, motion, near, 0.0)
             evaluations += series.order
+            wanted = series.told[WANTED] if fixed == 0 else np.inf
         if outcome != FINE:
             break
-        step, is_known = choose_step(series, row, control, piece, t, least, n), True
+        step, is_known = choose_step(series, row, control, piece, t, min(wanted, least)), True
         outcome, defect = try_step(series, row, t, step, motion)
         evaluations += series.order
         if is_refused(control, outcome, defect, step.size, least):
@@ -346,18 +338,18 @@ def integrate_series(
             continue
         if outcome != FINE:
             break
-        held = detect_hold(motion, watch.switch, t, step.size, fixed, series.old, series.new)
+        held = detect_hold(motion, watch.switch, t, step.size, fixed, old, new)
         if is_held_before(watch.switch, t + step.size, held):
             outcome = held
             break
         filled = sample_series(series, row, t, step.size, times, out, filled)
         outcome = watch_series(series, row, t, step.size, watch, n) or held
-        accept_step(series)
+        accept_step(series.states)
         steps += 1
-        near, row, least = step.size, 1 - row, np.inf
+        near, row, least, wanted = step.size, 1 - row, np.inf, series.told[WANTED] if fixed == 0 else np.inf
         t, time_compensation = advance_time(plan, piece, t, near, time_compensation, 1 if step.ends_piece else 0)
-        record(plan, t, series.old)
+        record(plan, t, old)
     if outcome == STEP_UNDERFLOW:
         reach = AHEAD * control.largest_step
-        outcome = held_or_failed(motion, watch.switch, t, reach, series.old, derivative, outcome)
+        outcome = held_or_failed(motion, watch.switch, t, reach, old, derivative, outcome)
     return Result(outcome, filled, steps, rejected, evaluations, watch.switch.when[0] if outcome == HELD else t)

@@ -128,19 +128,19 @@ def measure(shape: Shape, smallest_pivot: float) -> Code:
 def _wanted(code: Code, order: str, last: str, before: str) -> str:
     """H e^(−0.7/(p − 1)) over the larger of (|c_p|/ε)^(1/p) and (|c_(p−1)|/ε)^(1/(p − 1)), to ten digits."""
     tolerance, count = (
-        _logarithm(code, code.load("%work", TOLERANCE)),
+        logarithm(code, code.load("%work", TOLERANCE)),
         code.spread(code.new(f"sitofp i64 {order} to double")),
     )
     fewer = code.subtract(count, code.number(1.0))
     steepest = code.larger(
-        code.divide(code.subtract(_logarithm(code, last), tolerance), count),
-        code.divide(code.subtract(_logarithm(code, before), tolerance), fewer),
+        code.divide(code.subtract(logarithm(code, last), tolerance), count),
+        code.divide(code.subtract(logarithm(code, before), tolerance), fewer),
     )
     safety = code.divide(code.number(-SAFETY / log(2.0)), fewer)
-    return code.multiply(code.load("%work", UNIT), _power_of_two(code, code.subtract(safety, steepest)))
+    return code.multiply(code.load("%work", UNIT), power_of_two(code, code.subtract(safety, steepest)))
 
 
-def _logarithm(code: Code, x: str) -> str:
+def logarithm(code: Code, x: str) -> str:
     """log₂ x for x > 0; about −1023 for 0."""
     bits = code.bits(x)
     mantissa = code.of_bits(code.on_bits("or", code.on_bits("and", bits, 2**BITS - 1), 1023 << BITS))
@@ -156,7 +156,7 @@ def _logarithm(code: Code, x: str) -> str:
     return code.multiply_add(ratio, code.horner(OF_LOGARITHM, code.multiply(ratio, ratio)), exponent)
 
 
-def _power_of_two(code: Code, x: str) -> str:
+def power_of_two(code: Code, x: str) -> str:
     """2^x, for |x| up to FAR."""
     x = code.larger(code.number(-FAR), code.smaller(code.number(FAR), x))
     shifted = code.add(x, code.number(1.5 * 2.0**BITS))
