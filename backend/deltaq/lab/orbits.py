@@ -107,13 +107,13 @@ def _orbits(section: Section, starts: Floats, parts: list[Crossings], standing: 
             mine, view = mine[known], view[known]
         has_place = (np.abs(view[:, :2]) <= LARGEST).all(axis=1)  # an axis may have no value somewhere
         mine, view = mine[has_place], view[has_place]
-        code, errors = int(standing.outcomes[index]), _errors(section, mine, view, theirs, other)
+        code, errors = int(standing.outcomes[index]), errors_between(section, mine, view, theirs, other)
         status: RungStatus = "ok" if code < 0 else outcome_of(code, {}).status
         found.append(Orbit(starts[index], mine, view, errors, status, float(standing.reach[index])))
     return found
 
 
-def _errors(section: Section, mine: Floats, seen: Floats, theirs: Floats, other: Floats) -> Floats:
+def errors_between(section: Section, mine: Floats, seen: Floats, theirs: Floats, other: Floats) -> Floats:
     """How far each point is from that of its twin next to it in time; infinite where there is none."""
     if not len(theirs) or not len(mine):
         return np.full(len(mine), math.inf)

@@ -1,8 +1,6 @@
 """Where a motion is looked at: once in each period of a drive, or wherever it passes a plane; and what is seen there.
 
-Between samples of a motion it is the quintic through positions, rates and accelerations at both; the plane's root is
-sought on that.
-Source: Hairer, Nørsett, Wanner, Solving Ordinary Differential Equations I, II.6 (Hermite interpolation).
+Between samples of a motion the plane's root is sought on a quintic (`interpolation`).
 """
 
 from __future__ import annotations
@@ -17,11 +15,10 @@ import numpy as np
 from ..language.expression import Expression
 from ..model.compiled import Compiled
 from ..model.observables import Observable, Observables
-from ..simulation.derivatives import accelerations
-from ..simulation.march import Polynomials
 from ..simulation.problem import Floats
 from ..simulation.section import Brackets, Surface, refined
 from .flow import Flow
+from .interpolation import quintics
 
 SAMPLES = 96  # in a period, at least
 PER_STEP = 12  # samples in a step of the motion
@@ -105,28 +102,10 @@ class View:
         (where,) = np.nonzero(surface.is_crossed(left, right) & np.isfinite(left + right))
         if not len(where):
             return rows[:0]
-        series = self._quintics(value, rows, where)
+        series = quintics(self.flow.at(value), rows[where], rows[where + 1])
         ends = np.zeros(len(where)), np.ones(len(where))
         brackets = Brackets(where, series, *ends, left[where], right[where], shift[where])
         return refined(brackets, surface).rows
-
-    def _quintics(self, value: float, rows: Floats, where: np.ndarray) -> Polynomials:
-        """The motion between rows and the next ones."""
-        n = self.flow.problem.degrees
-        at = self.flow.at(value)
-        (q, v, a), (q1, v1, a1) = (
-            (some[:, :n], some[:, n : 2 * n], accelerations(at, some[:, -1], some))
-            for some in (rows[where], rows[where + 1])
-        )
-        h = (rows[where + 1, -1] - rows[where, -1])[:, None]
-        d, v, v1, a, a1 = q1 - q, h * v, h * v1, h**2 * a, h**2 * a1
-        third = 10.0 * d - 6.0 * v - 4.0 * v1 - 1.5 * a + 0.5 * a1
-        fourth = -15.0 * d + 8.0 * v + 7.0 * v1 + 1.5 * a - a1
-        fifth = 6.0 * d - 3.0 * (v + v1) - 0.5 * (a - a1)
-        positions = np.stack([q, v, 0.5 * a, third, fourth, fifth], axis=1)
-        rates = np.stack([v, a, 3.0 * third, 4.0 * fourth, 5.0 * fifth, np.zeros_like(v)], axis=1) / h[:, None]
-        coefficients, old = np.concatenate([positions, rates], axis=2), rows[where, : 2 * n]
-        return Polynomials(coefficients, old, np.zeros_like(old), rows[where, -1], h[:, 0], n)
 
 
 def _at(function: Compiled, value: float) -> Callable[[Floats], Floats]:

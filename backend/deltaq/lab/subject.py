@@ -9,7 +9,7 @@ from ..contract.experiment import ExperimentRequest
 from ..errors import Problem as Mistake
 from ..errors import RequestError, UnknownNameError
 from ..language.spelling import in_unicode, latex_of
-from ..mechanics.jumps import jumps
+from ..mechanics.jumps import frictions_of, impacts_of, jumps
 from ..mechanics.requests import begun_scene, inside
 from ..mechanics.scene import Scene
 from ..mechanics.user_text import plainly
@@ -66,7 +66,22 @@ def subject_of(request: ExperimentRequest, samples: int = 501) -> Subject:
     refused = tuple(jumps(begun, Mistake("lab-impacts", "/scene"), Mistake("lab-friction", "/scene")))
     if refused:
         raise RequestError(*refused)
-    scene = replace(begun, events=())  # it is about the equations, as if nothing ended the motion
+    return _posed(replace(begun, events=()), request, samples)  # about the equations, as if nothing ended the motion
+
+
+def hybrid_subject_of(request: ExperimentRequest, samples: int = 501) -> Subject | None:
+    """The subject of an experiment that follows motions behind impacts, and while they stick and slip.
+
+    None for a scene without such, or with constraints besides. What ends motions is left out. Raises InputError where
+    there is no such scene, or none with these values.
+    """
+    begun = begun_scene(request)
+    if begun.constraints or not (impacts_of(begun) or frictions_of(begun)):
+        return None
+    return _posed(replace(begun, events=tuple(each for each in begun.events if each.bounces)), request, samples)
+
+
+def _posed(scene: Scene, request: ExperimentRequest, samples: int) -> Subject:
     with inside("/scene"):
         return Subject(scene, problem_of(scene, request.t_end, samples))
 

@@ -75,9 +75,11 @@ class Observables:
 
     @cached_property
     def depends_on_time(self) -> bool:
-        """Whether the time stands in the equations of motion."""
+        """Whether the time stands in the equations of motion, or in what happens at impacts."""
         eqs, time = self._equations, self._symbols.time
-        parts = (*(entry for row in eqs.mass_matrix for entry in row), *eqs.forcing)
+        laws = ((event.value, event.restitution) for event in self.scene.events if event.bounces)
+        impacts = [self._written(each) for pair in laws for each in pair if each is not None]
+        parts = (*(entry for row in eqs.mass_matrix for entry in row), *eqs.forcing, *impacts)
         return any(time in se.sympify(part).free_symbols for part in parts)
 
     def _written(self, asked: Expression) -> Expr:

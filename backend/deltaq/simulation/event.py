@@ -10,7 +10,7 @@ import math
 import sys
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, TypeAlias
 
 import numpy as np
 
@@ -21,6 +21,7 @@ from .problem import Floats, Problem
 ROUNDS, PARTS = 12, 32  # each round looks at so many parts of what the one before left: 32¹² > 2⁵³
 CLOSER = 6  # rounds for a minimum, each an eighth of the part before; its value is flat
 MOST_ROOT_STEPS = 100
+Point: TypeAlias = tuple[float, float]  # a place and the value there
 NUDGE, LEAST_NUDGE = 0.01, 1e-6  # of the step, and seconds
 
 
@@ -175,26 +176,34 @@ class _Look:
         return float(np.asarray(self._function(self._row)).ravel()[index])
 
     def root(self, index: int, a: float, b: float, above: float, below: float) -> float:
-        """A place with a value ≤ 0 next to one with a positive one (Illinois: regula falsi that halves stale ends)."""
-        fa, fb, side = above, below, 0
+        """A place with a value ≤ 0, as near to one with a positive one as times can be told apart.
+
+        Source: T. R. Chandrupatla, Advances in Engineering Software 28 (1997) 145–149: inverse quadratic interpolation
+        where three values allow it, else the middle.
+        """
+        near = max(math.ulp(b), 0.5 * math.ulp(self.time(b)) / float(self._times[-1] - self._times[0]))
+        (x1, f1), (x2, f2), part = (b, below), (a, above), below / (below - above)
         for _ in range(MOST_ROOT_STEPS):
-            if b - a <= 2.0 * math.ulp(b):
-                break
-            x = (a * fb - b * fa) / (fb - fa)
-            if not a < x < b:
-                x = 0.5 * (a + b)
+            x = x1 + min(max(part, near / abs(x2 - x1)), 1.0 - near / abs(x2 - x1)) * (x2 - x1)
             found = self.value(index, x)
-            if found > 0.0:
-                a, fa = x, found
-                fb = 0.5 * fb if side > 0 else fb
-                side = 1
+            if (found > 0.0) == (f1 > 0.0):
+                x3, f3 = x1, f1
             else:
-                b, fb = x, found
-                if found == 0.0:
-                    break
-                fa = 0.5 * fa if side < 0 else fa
-                side = -1
-        return b
+                x3, f3, x2, f2 = x2, f2, x1, f1
+            x1, f1 = x, found
+            if abs(x2 - x1) <= 2.0 * near or f1 == 0.0:
+                break
+            part = _inverse_quadratic((x1, f1), (x2, f2), (x3, f3))
+        return x1 if f1 <= 0.0 else x2
+
+
+def _inverse_quadratic(new: Point, across: Point, old: Point) -> float:
+    """The part of the way from the newest place to that across the root; half of it where three values do not tell."""
+    (x1, f1), (x2, f2), (x3, f3) = new, across, old
+    xi, phi = (x1 - x2) / (x3 - x2), (f1 - f2) / (f3 - f2)
+    if not (phi * phi < xi and (1.0 - phi) ** 2 < 1.0 - xi):
+        return 0.5
+    return f1 / (f2 - f1) * f3 / (f2 - f3) + (x3 - x1) / (x2 - x1) * f1 / (f3 - f1) * f2 / (f3 - f2)
 
 
 def approaches(problem: Problem, watch: Watch, t_end: float) -> tuple[Approach, ...]:

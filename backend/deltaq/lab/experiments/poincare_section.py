@@ -1,32 +1,40 @@
 """Poincaré section: where many motions of one energy, or of one drive, cross a plane in phase space.
 
 Regular motions leave curves, chaotic ones fill areas. Each point is a root of the plane's function on the polynomial of
-a Taylor step, known to rounding until the motion's own sensitivity takes over; after its horizon it is marked.
-Source: see `lab.plane`, `lab.starts` and `lab.orbits`.
+a Taylor step, known to rounding until the motion's own sensitivity takes over; after its horizon it is marked. Motions
+with impacts or dry friction are followed one by one, from event to event.
+Source: see `lab.plane`, `lab.starts`, `lab.orbits` and `lab.hybrid_orbits`.
 """
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from ...contract.experiments.poincare_section import PoincareSectionRequest
 from ...errors import Problem as Mistake
 from ...errors import RequestError
+from ...model.modes import modes_of
+from ...simulation.integration import Flag
 from ...simulation.problem import Floats
 from ...simulation.rounding import rounded as rounded_to
 from ...simulation.section import path_of
 from ..charts.poincare_section import charts
 from ..experiment import Experiment
+from ..hybrid_orbits import LEAST, HybridMotions, clear_of_contacts
+from ..hybrid_orbits import followed as hybrid_orbits
+from ..hybrid_orbits import path_of as path_of_run
 from ..minimal_subject import FreeSubject, minimal_subject_of
 from ..orbits import LOST, MEETS, TOGETHER, Orbit, followed, steps_of
+from ..period import period
 from ..plane import Section, observables_of, section_of
 from ..report import Document, Report, rounded, significant
 from ..sliding import require_no_sliding
 from ..starts import Grid, Starts
-from ..subject import bounded
+from ..subject import Subject, bounded, hybrid_subject_of
 
 TOTAL = 1000
 MOST_STEPS = 20_000  # of one orbit: one that comes close to a pole would keep all others waiting
@@ -46,17 +54,19 @@ class _Asked:
     has_own: bool
     energy: float | None
     scale: float
+    hybrid: HybridMotions | None = None
 
 
 def run(request: PoincareSectionRequest) -> Iterator[Report]:
     """Orbits as they come, some dozens side by side; then what is known of them."""
-    free, cancelled = minimal_subject_of(request), np.zeros(1, dtype=np.int64)
-    asked, orbits = _asked(request, free, cancelled), list[Orbit]()
-    steps = steps_of(asked.section.problem, is_driven=asked.section.is_driven)
+    cancelled = np.zeros(1, dtype=np.int64)
+    hybrid = hybrid_subject_of(request)
+    asked = _asked(request, cancelled) if hybrid is None else _asked_of_hybrid(request, hybrid, cancelled)
+    orbits = list[Orbit]()
     yield Report(0, TOTAL, _told(asked, []))
     for first in range(0, len(asked.states), TOGETHER):
         some = asked.states[first : first + TOGETHER]
-        for share, found in followed(asked.section, some, steps, request.crossings + request.skip, cancelled):
+        for share, found in _followed(asked, some, cancelled):
             done = (first + share * len(some)) / len(asked.states)
             yield Report(min(int(TOTAL * done), TOTAL - 1), TOTAL, _told(asked, [*orbits, *found]))
         orbits += found
@@ -64,12 +74,41 @@ def run(request: PoincareSectionRequest) -> Iterator[Report]:
     yield Report(TOTAL, TOTAL, _told(asked, orbits))
 
 
-def _asked(request: PoincareSectionRequest, free: FreeSubject, cancelled: np.ndarray) -> _Asked:
-    subject = free.subject
-    observables, problem = observables_of(request, subject), bounded(subject, MOST_STEPS)
+def _followed(asked: _Asked, starts: Floats, cancelled: Flag) -> Iterator[tuple[float, list[Orbit]]]:
+    section, most = asked.section, asked.request.crossings + asked.request.skip
+    if asked.hybrid is not None:
+        return hybrid_orbits(section, asked.hybrid, starts, most)
+    return followed(section, starts, steps_of(section.problem, is_driven=section.is_driven), most, cancelled)
+
+
+def _asked(request: PoincareSectionRequest, cancelled: Flag) -> _Asked:
+    free = minimal_subject_of(request)
+    observables, problem = observables_of(request, free.subject), bounded(free.subject, MOST_STEPS)
     require_no_sliding(problem)
     path = path_of(problem, steps_of(problem, is_driven=False), LONGEST_PATH, cancelled)
+    return _begun(request, free, section_of(request, problem, observables, path), path)
+
+
+def _asked_of_hybrid(request: PoincareSectionRequest, subject: Subject, cancelled: Flag) -> _Asked:
+    """The same of a scene with impacts or dry friction: starts behind a contact are left out."""
+    scene, modes = subject.scene, modes_of(subject.scene)
+    observables, problem = observables_of(request, subject), bounded(subject, MOST_STEPS)
+    if modes is None:
+        raise LookupError("the scene has neither impacts nor friction")
+    motions = HybridMotions(problem, modes, LEAST, cancelled)
+    path = path_of_run(motions.run(problem.state))
     section = section_of(request, problem, observables, path)
+    asked = _begun(request, FreeSubject(subject), section, path)
+    seconds = period(scene) if section.is_driven else math.inf
+    clear = clear_of_contacts(scene, observables, asked.states)
+    grid = replace(asked.grid, forbidden=asked.grid.forbidden + int((~clear).sum()))
+    if not section.function.places:  # the time alone tells how long it takes to cross so often
+        wanted = (request.crossings + request.skip + 1) * seconds
+        motions = replace(motions, problem=replace(problem, t_end=min(problem.t_end, wanted)))
+    return replace(asked, grid=grid, states=asked.states[clear], hybrid=motions.following(problem.state, seconds))
+
+
+def _begun(request: PoincareSectionRequest, free: FreeSubject, section: Section, path: Floats) -> _Asked:
     grid = Grid(section, path)
     own = grid.own
     found = float(grid.energy_at(own[None, :])[0])
