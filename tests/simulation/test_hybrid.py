@@ -81,6 +81,21 @@ def test_twenty_impacts_on_a_table_at_rest(method: str) -> None:
     assert np.ptp(balance) < 1e-12
 
 
+@pytest.mark.parametrize("lost", [0.0, 1e-16, 1e-15, 1e-12, 1e-9, 1e-6, 1e-3])
+def test_impacts_that_take_little_or_nothing_are_no_rest(lost: float) -> None:
+    """From h = 1 m the ball is up again at eᵏ of its first rate, at √(2h/g)(1 + 2e + 2e² + …), however near e is to 1."""
+    e, g = 1.0 - lost, 9.81
+    scene = change(scene_here("bouncing-ball"), parameters={"e": e, "a": 0.0, "omega": 0.0, "g": g})
+    found = simulate(problem_of(scene, 10.0, 101), get_method("dop853"), tolerance=1e-9)
+    assert found.outcome.status == "ok"
+    assert {each.kind for each in found.transitions} == {"impact"}
+    fall, flights = math.sqrt(2.0 / g), np.concatenate([[0.0], e ** np.arange(1, len(found.transitions))])
+    times = fall * (1.0 + 2.0 * np.cumsum(flights))
+    np.testing.assert_allclose([each.time for each in found.transitions], times, atol=1e-11)
+    rates = [each.after[1] for each in found.transitions]
+    np.testing.assert_allclose(rates, g * fall * e ** np.arange(1, len(rates) + 1), atol=1e-11)
+
+
 def test_rebounds_that_pile_up_end_in_rest() -> None:
     """All rebounds together last √(2h/g) (1 + e)/(1 − e)."""
     found = motion(change(scene_here("bouncing-ball"), parameters={"a": 0.0, "e": 0.5}), 3.0)

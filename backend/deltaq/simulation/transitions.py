@@ -21,6 +21,7 @@ from .problem import Floats, Problem
 TOUCHING = 1e-11  # a gap, relative to the coordinates
 STILL = 1e-12  # a rate, relative to the largest
 HEIGHT = 1e-15  # by which rounding lifts a rebound, relative to the coordinates
+LOWEST = 1e-12  # the highest rebound that is taken for rest, relative to the coordinates; of what loses nothing, too
 LATE = 1e-6  # s; so much behind the zero of a gap its event is found at most
 ROUNDING = 1e-15
 HARDLY = 1e-13  # of a rate of slipping
@@ -273,7 +274,10 @@ def _rests(current: ModeState, row: int, contact: int) -> bool:
     e = float(facts.restitutions[contact])
     rebound = e * float(facts.w[row])
     pull = -float(facts.a[row] @ current.accelerations + facts.bias[row])
-    return pull > 0.0 and rebound**2 * (1.0 - e**2) <= 2.0 * pull * HEIGHT * _size(current.q)
+    if not pull > 0.0:
+        return False
+    height, lost = rebound**2 / (2.0 * pull), 1.0 - e**2
+    return height <= LOWEST * _size(current.q) and height * lost <= HEIGHT * _size(current.q)
 
 
 def _resolved(current: ModeState, closed: frozenset[int], released: int | None) -> ModeState:
