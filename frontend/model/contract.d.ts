@@ -5902,6 +5902,11 @@ export interface components {
              */
             unsolved: number;
             /**
+             * Behind
+             * @description starts of the grid that lie behind a contact
+             */
+            behind: number;
+            /**
              * Missed
              * @description orbits that never cross the plane
              */

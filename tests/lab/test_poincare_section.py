@@ -130,6 +130,14 @@ def test_after_the_horizon_points_are_marked_or_left_out() -> None:
     assert all(o["t"][-1] < o["horizon"] for o in left["orbits"] if o["horizon"] is not None and o["t"])
 
 
+def test_a_motion_that_repeats_with_each_crossing_is_one_point_and_regular() -> None:
+    """Behind its transient a weakly driven pendulum with friction is where it was a period before."""
+    found = ask(scene="driven-pendulum", parameters={"gamma": 0.2}, crossings=25, skip=60, t_end=300.0)
+    (orbit,) = found["orbits"]
+    assert np.ptp(orbit["x"]) < 1e-10
+    assert (len(orbit["t"]), orbit["status"], orbit["chaotic"], orbit["horizon"]) == (25, "ok", False, None)
+
+
 def test_first_points_can_be_left_out() -> None:
     whole, rest = ask(scene=OSCILLATORS, crossings=9), ask(scene=OSCILLATORS, crossings=6, skip=3)
     assert rest["orbits"][0]["t"] == whole["orbits"][0]["t"][3:]

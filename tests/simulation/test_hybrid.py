@@ -83,7 +83,7 @@ def test_twenty_impacts_on_a_table_at_rest(method: str) -> None:
 
 @pytest.mark.parametrize("lost", [0.0, 1e-16, 1e-15, 1e-12, 1e-9, 1e-6, 1e-3])
 def test_impacts_that_take_little_or_nothing_are_no_rest(lost: float) -> None:
-    """From h = 1 m the ball is up again at eᵏ of its first rate, at √(2h/g)(1 + 2e + 2e² + …), however near e is to 1."""
+    """From 1 m it is up again at eᵏ of its first rate, after √(2h/g)(1 + 2e + 2e² + …), however near e is to 1."""
     e, g = 1.0 - lost, 9.81
     scene = change(scene_here("bouncing-ball"), parameters={"e": e, "a": 0.0, "omega": 0.0, "g": g})
     found = simulate(problem_of(scene, 10.0, 101), get_method("dop853"), tolerance=1e-9)

@@ -34,6 +34,7 @@ PAUSE = 0.5  # seconds between two reports of what has come
 FEW = 20  # points that tell nothing of how errors grow
 GROWS = 1e-12  # of the picture, times the square of the number of points: more than regular motions lose
 LARGEST = 1e100  # on an axis
+ONE_POINT = 1e-9  # of the distance from the origin
 MEETS = 1e-9  # |h| over its scale, below which a motion is in the plane all the time
 
 
@@ -65,6 +66,17 @@ class Orbit:
         if count < FEW:
             return None
         return bool(np.median(self.errors[-count // 4 :]) > GROWS * count**2 * extent)
+
+
+def extent_of(points: Floats) -> float:
+    """The larger side of the picture of points, shape (points, 2): by it errors are judged.
+
+    Where all are one point, as on a motion that repeats with each crossing, it is how far that is from the origin.
+    """
+    if not len(points):
+        return 1.0
+    side, farthest = float(np.ptp(points, axis=0).max()), float(np.abs(points).max())
+    return side if side > ONE_POINT * farthest else farthest or 1.0
 
 
 def steps_of(problem: Problem, *, is_driven: bool) -> Steps:

@@ -47,6 +47,7 @@ class PoincareSectionAnswer(FreeAnswer):
     points: int = Field(description="of all orbits")
     forbidden: int = Field(description="starts of the grid that would need more energy")
     unsolved: int = Field(description="starts of the grid for which no state in the plane was found")
+    behind: int = Field(description="starts of the grid that lie behind a contact")
     missed: int = Field(description="orbits that never cross the plane")
     sharp: int = Field(description="points whose error is at most 1e-10")
     kept: float | None = Field(description="how far the energy before the horizons is from that wanted, in parts of it")

@@ -89,7 +89,7 @@ def _told(result: Result, say: Say) -> Iterator[str]:
     told["plane"] = in_symbols(result, result["plane"])
     direction = say(f"labs.direction-{result['direction']}")
     yield say(f"{key}.{'driven' if result['driven'] else 'kept'}", **told, count=len(orbits), direction=direction)
-    for name in ("forbidden", "unsolved", "missed"):
+    for name in ("forbidden", "unsolved", "behind", "missed"):
         if result[name]:
             yield say(f"{key}.{name}", count=result[name])
     if result["sharp"]:

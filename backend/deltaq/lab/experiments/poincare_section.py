@@ -28,7 +28,7 @@ from ..hybrid_orbits import LEAST, HybridMotions, clear_of_contacts
 from ..hybrid_orbits import followed as hybrid_orbits
 from ..hybrid_orbits import path_of as path_of_run
 from ..minimal_subject import FreeSubject, minimal_subject_of
-from ..orbits import LOST, MEETS, TOGETHER, Orbit, followed, steps_of
+from ..orbits import LOST, MEETS, TOGETHER, Orbit, extent_of, followed, steps_of
 from ..period import period
 from ..plane import Section, observables_of, section_of
 from ..report import Document, Report, rounded, significant
@@ -54,6 +54,7 @@ class _Asked:
     has_own: bool
     energy: float | None
     scale: float
+    behind: int = 0
     hybrid: HybridMotions | None = None
 
 
@@ -101,11 +102,11 @@ def _asked_of_hybrid(request: PoincareSectionRequest, subject: Subject, cancelle
     asked = _begun(request, FreeSubject(subject), section, path)
     seconds = period(scene) if section.is_driven else math.inf
     clear = clear_of_contacts(scene, observables, asked.states)
-    grid = replace(asked.grid, forbidden=asked.grid.forbidden + int((~clear).sum()))
     if not section.function.places:  # the time alone tells how long it takes to cross so often
         wanted = (request.crossings + request.skip + 1) * seconds
         motions = replace(motions, problem=replace(problem, t_end=min(problem.t_end, wanted)))
-    return replace(asked, grid=grid, states=asked.states[clear], hybrid=motions.following(problem.state, seconds))
+    motions = motions.following(problem.state, seconds)
+    return replace(asked, states=asked.states[clear], behind=int((~clear).sum()), hybrid=motions)
 
 
 def _begun(request: PoincareSectionRequest, free: FreeSubject, section: Section, path: Floats) -> _Asked:
@@ -146,7 +147,7 @@ def _told(asked: _Asked, orbits: Sequence[Orbit]) -> Document:
     section, skip = asked.section, asked.request.skip
     seen = [orbit.seen[skip:] for orbit in orbits]
     points = np.concatenate([np.zeros((0, 3)), *seen])
-    extent = float(np.ptp(points[:, :2], axis=0).max()) if len(points) else 1.0
+    extent = extent_of(points[:, :2])
     trusted = [orbit.seen[skip : orbit.horizon(extent)] for orbit in orbits]
     errors = [orbit.errors[skip : orbit.horizon(extent)] for orbit in orbits]
     verdicts = [orbit.is_chaotic(extent) for orbit in orbits[int(asked.has_own) :]]
@@ -162,6 +163,7 @@ def _told(asked: _Asked, orbits: Sequence[Orbit]) -> Document:
         "points": len(points),
         "forbidden": asked.grid.forbidden,
         "unsolved": asked.grid.unsolved,
+        "behind": asked.behind,
         "missed": sum(not len(each) for each in seen),
         "sharp": int((np.concatenate([np.zeros(0), *errors]) <= SHARP).sum()),
         "kept": _kept(asked.energy, np.concatenate([np.zeros((0, 3)), *trusted])[:, 2]),
