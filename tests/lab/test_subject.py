@@ -37,11 +37,12 @@ JUMPS: dict[str, tuple[dict[str, Any], tuple[str, ...]]] = {
 
 
 RANGE = {"parameter": "m", "from": 1.0, "to": 2.0, "count": 8}
+BEHIND_EVENTS = {"poincare-section"}  # these go on behind events (test_hybrid_orbits)
 ASKED = {"stability-map": {"x": RANGE, "y": RANGE}, "bifurcation": {"sweep": RANGE}}
 
 
 @pytest.mark.parametrize("jump", JUMPS)
-@pytest.mark.parametrize("experiment", experiment_ids())
+@pytest.mark.parametrize("experiment", sorted({*experiment_ids()} - BEHIND_EVENTS))
 def test_no_experiment_follows_one_set_of_equations_where_there_are_several(experiment: str, jump: str) -> None:
     line = {
         "format": 1,

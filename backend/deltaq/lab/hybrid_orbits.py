@@ -77,7 +77,10 @@ class HybridMotions:
         return run_on(own, self.modes, method, times, self.cancelled, steps)
 
     def following(self, start: Floats, period: float) -> HybridMotions:
-        """The same with samples as close as a motion from this start, or a period of a drive in seconds, asks for."""
+        """The same with samples as close as a motion from this start, or a period of a drive in seconds, asks for.
+
+        `start` has shape (2n,).
+        """
         wanted = max(PER_STEP * self.run(start).result.steps, PER_PERIOD * self.problem.t_end / period, LEAST)
         return replace(self, samples=int(min(wanted, MOST)))
 

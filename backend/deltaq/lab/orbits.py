@@ -126,7 +126,11 @@ def _orbits(section: Section, starts: Floats, parts: list[Crossings], standing: 
 
 
 def errors_between(section: Section, mine: Floats, seen: Floats, theirs: Floats, other: Floats) -> Floats:
-    """How far each point is from that of its twin next to it in time; infinite where there is none."""
+    """How far each point is from that of its twin next to it in time, shape (points,); infinite where there is none.
+
+    `mine` and `theirs` are rows (q, q̇, t), shape (points, 2n + 1), `seen` and `other` what is seen of them, shape
+    (points, 3).
+    """
     if not len(theirs) or not len(mine):
         return np.full(len(mine), math.inf)
     times, others = mine[:, -1], theirs[:, -1]
