@@ -16,6 +16,7 @@ from .disturbance import disturbed
 from .equations import Equations, equations
 from .functions import Expr
 from .phase import PhaseSpace, phase_space
+from .pushes import Pushes, compiled_pushes
 from .recurrence_writer import recurrences_of
 from .recurrences import Recurrences
 from .solved import CompiledSolution, compiled_solution
@@ -136,6 +137,11 @@ class Model:
     @cached_property
     def _thorough_solution(self) -> CompiledSolution | None:
         return compiled_solution(self.eqs, THOROUGH)
+
+    @cached_property
+    def pushes(self) -> Pushes | None:
+        """What keeps kicks and drifts on constraints, for long runs; compiled when a method first asks for it."""
+        return compiled_pushes(self.eqs)
 
     @cached_property
     def disturbed(self) -> Model:

@@ -40,9 +40,9 @@ class Factors:
         for i, entries in enumerate(matrix):
             scaled: list[Expr] = []  # L times D
             for j in range(i):
-                scaled.append(entries[j] - _dot(scaled, lower[j]))
+                scaled.append(entries[j] - dot(scaled, lower[j]))
             row = [part / pivot for part, pivot in zip(scaled, pivots, strict=True)]
-            pivots.append(entries[i] - _dot(scaled, row))
+            pivots.append(entries[i] - dot(scaled, row))
             lower.append(row)
         diagonal = tuple(row[i] for i, row in enumerate(matrix))
         return cls(tuple(map(tuple, lower)), tuple(pivots), diagonal)
@@ -51,10 +51,10 @@ class Factors:
         """The solution for a right side that has as many entries as there are rows, or as the first of them."""
         found: list[Expr] = []
         for row, entry in zip(self.lower, right, strict=False):
-            found.append(entry - _dot(row, found))
+            found.append(entry - dot(row, found))
         found = [entry / pivot for entry, pivot in zip(found, self.pivots, strict=False)]
         for i in reversed(range(len(found))):
-            found[i] = found[i] - _dot([self.lower[k][i] for k in range(i + 1, len(found))], found[i + 1 :])
+            found[i] = found[i] - dot([self.lower[k][i] for k in range(i + 1, len(found))], found[i + 1 :])
         return tuple(found)
 
     @cached_property
@@ -68,13 +68,14 @@ class Factors:
 class Solved:
     """What a model with constraints does, solved for; `mass` are the factors of M, `share` those of S.
 
-    `responses` are the rows of AM⁻¹.
+    `responses` are the rows of AM⁻¹, `free` is q̈ without reactions.
     """
 
     eqs: Equations
     mass: Factors
     share: Factors
     responses: tuple[Vector, ...]
+    free: Vector
     multipliers: Vector
     accelerations: Vector
 
@@ -92,8 +93,8 @@ class Solved:
         """What a model without constraints would say that moves alike, M = 1, f = q̈ and P, then `signs`."""
         n, power = len(self.accelerations), []
         if self.eqs.is_powered:
-            own = self.eqs.power + _dot(self.eqs.acceleration_power, self.accelerations)
-            power = [own - _dot(self.multipliers, self._held.drives), *[ZERO] * n]
+            own = self.eqs.power + dot(self.eqs.acceleration_power, self.accelerations)
+            power = [own - dot(self.multipliers, self._held.drives), *[ZERO] * n]
         identity = [ONE if j == i else ZERO for i in range(n) for j in range(i + 1)]
         return [*identity, *self.accelerations, *power, *self.signs]
 
@@ -106,13 +107,13 @@ class Solved:
 
     def _along(self, multiples: Vector) -> Vector:
         """So many of the first responses, summed up."""
-        return tuple(_dot(multiples, column) for column in zip(*self.responses, strict=True))
+        return tuple(dot(multiples, column) for column in zip(*self.responses, strict=True))
 
     @property
     def reactions(self) -> Vector:
         """Aᵀλ."""
         columns = zip(*self._held.jacobian, strict=True)
-        return tuple(_dot(column, self.multipliers) for column in columns)
+        return tuple(dot(column, self.multipliers) for column in columns)
 
 
 @dataclass(frozen=True)
@@ -132,13 +133,14 @@ def solved(eqs: Equations) -> Solved | None:
     if any(pivot == 0 for pivot in mass.pivots):
         return None
     responses, free = tuple(mass.solve(row) for row in held.jacobian), mass.solve(eqs.forcing)
-    share = Factors.of([[_dot(row, each) for each in responses] for row in held.jacobian])
+    share = Factors.of([[dot(row, each) for each in responses] for row in held.jacobian])
     if any(pivot == 0 for pivot in share.pivots):
         return None
-    wanted = [bend - _dot(row, free) for bend, row in zip(held.accelerations, held.jacobian, strict=True)]
+    wanted = [bend - dot(row, free) for bend, row in zip(held.accelerations, held.jacobian, strict=True)]
     multipliers = share.solve(wanted)
-    added = (_dot(multipliers, column) for column in zip(*responses, strict=True))
-    return Solved(eqs, mass, share, responses, multipliers, tuple(a + b for a, b in zip(free, added, strict=True)))
+    added = (dot(multipliers, column) for column in zip(*responses, strict=True))
+    accelerations = tuple(a + b for a, b in zip(free, added, strict=True))
+    return Solved(eqs, mass, share, responses, free, multipliers, accelerations)
 
 
 def compiled_solution(eqs: Equations, effort: int) -> CompiledSolution | None:
@@ -164,6 +166,6 @@ def _least(values: Sequence[Expr]) -> Expr:
     return distinct[0] if len(distinct) == 1 else se.Min(*distinct)
 
 
-def _dot(a: Sequence[Expr], b: Sequence[Expr]) -> Expr:
+def dot(a: Sequence[Expr], b: Sequence[Expr]) -> Expr:
     """The sum over as many as both have."""
     return sum((x * y for x, y in zip(a, b, strict=False) if x != 0 and y != 0), ZERO)

@@ -8,6 +8,7 @@ from functools import cache, singledispatch
 import numpy as np
 from numpy.typing import NDArray
 
+from ..model.pushes import Places
 from ..model.recurrences import nudged
 from .constraints import block, solved_in
 from .kernels.constraints import constrained_motion, constrained_phase
@@ -19,6 +20,7 @@ from .kernels.motion import Motion
 from .kernels.newmark import integrate_newmark
 from .kernels.newmark_step import NewmarkWeights, make_newmark_workspace
 from .kernels.phase import Phase
+from .kernels.pushed import Pushed, make_pushed
 from .kernels.rattle import make_held
 from .kernels.solved import constrained_finish
 from .kernels.split_step import SplitWeights, make_split_workspace
@@ -107,19 +109,31 @@ def is_kicked(scheme: Scheme, problem: Problem) -> bool:
 def _split(scheme: Partitioned, arguments: KernelArguments) -> Result:
     problem = arguments.problem
     weights = SplitWeights(floats(scheme.kicks), floats(scheme.drifts))
-    is_held = problem.is_constrained
-    memory = block(problem, is_long=arguments.is_long) if is_held else np.zeros(block_size(0, 0, 0, 0, 0))
+    is_held, is_long = problem.is_constrained, arguments.is_long
+    memory = block(problem, is_long=is_long) if is_held else np.zeros(block_size(0, 0, 0, 0, 0))
     workspace = make_split_workspace(problem.state, problem.degrees)
     return integrate_split(
         arguments.motion,
         free_phase_of(problem),
-        (weights, make_held(memory, weights.kicks, weights.drifts)),
+        (weights, make_held(memory, weights.kicks, weights.drifts), pushed_of(problem, is_long=is_long)),
         arguments.control,
         arguments.watch,
         workspace,
         arguments.times,
         arguments.out,
     )
+
+
+def pushed_of(problem: Problem, *, is_long: bool) -> Pushed:
+    """What keeps kicks and drifts on constraints as solved for in symbols: in long runs, where there is a solution."""
+    model = problem.model
+    n, m, inputs = problem.degrees, len(model.layout.multipliers), model.motion.inputs
+    found = model.pushes if is_long and 0 < problem.rank == m else None
+    if found is None:
+        return make_pushed((0, 0, 0, 0), np.zeros(1 + Places(0, 0).size), 0, 0, 0)
+    given = np.zeros(inputs + Places(n, m).size)
+    given[2 * n + 1 : inputs] = problem.parameters
+    return make_pushed((*found.shifts.addresses, *found.ends.addresses), given, n, m, inputs)
 
 
 @run_kernel.register

@@ -10,7 +10,8 @@ from .loop import Result, advance_time, begin, interruption
 from .motion import FINE, Floats, Motion, rhs
 from .phase import Phase
 from .plan import enter_piece, fit_step, record
-from .rattle import Held, advance_held
+from .pushed import Pushed, advance_pushed
+from .rattle import Held
 from .split_step import SplitWeights, SplitWorkspace, add_compensated, advance, check, factorize
 from .step_control import Control
 from .watch import Watch
@@ -31,7 +32,7 @@ def work(motion: Motion, t: float, h: float, workspace: SplitWorkspace) -> int:
 def integrate_split(
     motion: Motion,
     phase: Phase,
-    scheme: tuple[SplitWeights, Held],
+    scheme: tuple[SplitWeights, Held, Pushed],
     control: Control,
     watch: Watch,
     workspace: SplitWorkspace,
@@ -40,15 +41,15 @@ def integrate_split(
 ) -> Result:
     """Steps of one size from times[0] past times[-1]; out[i] becomes (q, q̇, ∫P dt) at times[i].
 
-    `scheme` are the kicks and drifts, and what keeps them on constraints where there are any.
-    The initial state stands in `workspace.ends.old` and `workspace.ends.new`. `times` has shape (samples,), `out` shape
-    (samples, width).
+    `scheme` are the kicks and drifts, and what keeps them on constraints where there are any, by numbers and as solved
+    for in symbols. The initial state stands in `workspace.ends.old` and `workspace.ends.new`. `times` has shape
+    (samples,), `out` shape (samples, width).
     """
     t, time_compensation, n, plan, ends = times[0], 0.0, motion.degrees, control.plan, workspace.ends
     outcome = begin(motion, plan, watch, t, ends.old, ends.old_derivative, out)
     if outcome != FINE:
         return Result(outcome, 1, 0, 0, 1, t)
-    weights, held = scheme
+    weights, held, pushed = scheme
     factorize(phase, t, workspace)
     filled, steps, evaluations, piece, is_known = runtime_int(1), 0, 2, runtime_int(0), False
     while filled < times.size and outcome == FINE:
@@ -63,7 +64,7 @@ def integrate_split(
         if motion.finish == 0:
             is_known, computed = advance(phase, weights, t, h, 1 if is_known else 0, workspace)
         else:
-            outcome, is_known, computed = advance_held(motion, held, t, h, 1 if is_known else 0, workspace)
+            outcome, is_known, computed = advance_pushed(motion, held, pushed, t, h, 1 if is_known else 0, workspace)
         evaluations += computed
         outcome = outcome or check(n, workspace)
         if outcome == FINE and motion.is_powered:
