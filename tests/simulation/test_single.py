@@ -19,15 +19,9 @@ def some(order: int, width: int, behind: float) -> t.Series:
     """A series of random coefficients that fall with their order; behind each row stand two numbers more."""
     random = np.random.default_rng(100 * order + width)
     judged = width - 1 if width % 2 and width > 1 else width
-    numbers = (order, judged, random.normal(scale=2.0, size=width))
-    series = t.make_series(
-        t.Addresses(0, single().addresses["advance"], single().addresses["measure"]),
-        (order,),
-        (judged, 2, width + 2, 0),
-        told_of(order, TOLERANCE),
-        numbers[2],
-        np.zeros(0),
-    )
+    addresses = t.Addresses(0, single().addresses["advance"], single().addresses["measure"])
+    series = t.make_series(addresses, (order,), width, 0, (judged, 2, width + 2, 0))
+    t.begin_series(series, told_of(order, TOLERANCE), random.normal(scale=2.0, size=width), np.zeros(0))
     falling = 0.6 ** np.arange(order + 1)[:, None]
     for row in (0, 1):
         series.coefficients[row, :, :width] = falling * random.normal(size=(order + 1, width))

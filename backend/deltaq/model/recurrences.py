@@ -65,7 +65,7 @@ class Operation:
             DIVIDE: (((y, False), (b, False)),),
             RECIPROCAL: (((y, False), (b, False)),),
             ROOT: (((y, False), (y, False)),),
-            POWER: (((a, True), (y, False)), ((y, True), (a, False))),
+            POWER: (((y, False), (a, True)), ((y, False), (a, False))),
             RISE: (((a, True), (b, False)),),
             FALL: (((a, True), (b, False)),),
             QUOTIENT: (((y, True), (b, False)),),

@@ -30,7 +30,8 @@ from .kernels.step import Weights, make_workspace
 from .kernels.step_control import Control
 from .kernels.switch import Switch, make_switch
 from .kernels.system import SIGNS, block_size
-from .kernels.taylor import Addresses, integrate_series, make_series
+from .kernels.taylor import Addresses, begin_series, integrate_series, make_series
+from .kernels.taylor import Series as SeriesArrays
 from .kernels.watch import NODES, NODES_OF_SERIES, Watch, make_watch, unwatched
 from .method import Newmark, Partitioned, Row, Scheme, Series, Tableau
 from .problem import Floats, Problem
@@ -153,25 +154,22 @@ def _series(scheme: Series, arguments: KernelArguments) -> Result:
     constants = problem.model.latest("constants", parameters, lambda: recurrences.constants(np.array(parameters)))
     if arguments.is_nudged:
         constants, state = recurrences.nudged(constants), nudged(state)
-    tolerance, steps = arguments.control.tolerance, single().addresses
+    tolerance = arguments.control.tolerance
     order = arguments.order or scheme.order_for(tolerance)
-    series = make_series(
-        Addresses(jet.code.address, steps["advance"], steps["measure"]),
-        (order, *jet.program),
-        (2 * problem.degrees, len(recurrences.conditions), jet.shape.components, jet.work),
-        told_of(order, tolerance),
-        state,
-        constants,
+    spare: list[SeriesArrays] = problem.model.kept(("spare", jet.code.address, order), list)
+    try:
+        series = spare.pop()  # others may ask at the same time
+    except IndexError:
+        steps = single().addresses
+        addresses = Addresses(jet.code.address, steps["advance"], steps["measure"])
+        sizes = (2 * problem.degrees, len(recurrences.conditions), jet.shape.components, jet.work)
+        series = make_series(addresses, (order, *jet.program), state.size, constants.size, sizes)
+    begin_series(series, told_of(order, tolerance), state, constants)
+    result = integrate_series(
+        arguments.motion, series, arguments.control, arguments.watch, arguments.times, arguments.out
     )
-    return integrate_series(
-        arguments.motion,
-        series,
-        arguments.control,
-        arguments.watch,
-        np.zeros_like(state),
-        arguments.times,
-        arguments.out,
-    )
+    spare.append(series)
+    return result
 
 
 def motion_of(problem: Problem, *, is_long: bool = True, tells_end: bool = True) -> Motion:

@@ -111,6 +111,9 @@ class Series:
     is_symmetric = False
     error: Row = (Fraction(1),)  # the last coefficients
 
+    def __hash__(self) -> int:
+        return self.order  # fractions take long
+
     @property
     def stages(self) -> int:
         return self.order

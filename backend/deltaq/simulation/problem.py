@@ -72,8 +72,13 @@ class Problem:
         return self.model.layout.degrees
 
     @property
+    def width(self) -> int:
+        """The components of a state: 2n or, where power is fed in, 2n + 1."""
+        return 2 * self.degrees + self.model.layout.is_powered
+
+    @property
     def state(self) -> Floats:
-        """The initial state (q, q̇ and, where power is fed in, ∫P dt): shape (width,), width 2n or 2n + 1."""
+        """The initial state (q, q̇ and, where power is fed in, ∫P dt): shape (width,)."""
         work = (0.0,) if self.model.layout.is_powered else ()
         return np.array([*self.values, *self.rates, *work], dtype=np.float64)
 

@@ -169,7 +169,7 @@ def _run(
         _control(limit, method, steps, plan),
         watch_of(problem, cancelled, method.tableau),
         np.ascontiguousarray(times),  # a kernel is compiled anew for an array with strides
-        np.zeros((times.size, problem.state.size)),
+        np.zeros((times.size, problem.width)),
         is_long,
         steps.order,
         steps.is_nudged,

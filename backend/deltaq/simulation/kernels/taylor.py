@@ -84,43 +84,45 @@ class Series(NamedTuple):
 
 
 def make_series(
-    code: Addresses,
-    program: tuple[int, ...],
-    sizes: tuple[int, int, int, int],
-    told: tuple[float, ...],
-    state: Floats,
-    constants: Floats,
+    code: Addresses, program: tuple[int, ...], width: int, constants: int, sizes: tuple[int, int, int, int]
 ) -> Series:
-    """The arrays for code whose program begins with the order; they lie in one block.
+    """The arrays, in one block, for code whose program begins with the order.
 
-    `sizes` are how many are judged, the conditions, the components of a row, and the work space; `told` is what begins
-    at TOLERANCE. `state` has shape (width,), `constants` shape (constants,).
+    The state has so many components and the code so many constants; `sizes` are how many are judged, the conditions,
+    the components of a row, and the work space.
     """
-    order, width = program[0], state.size
-    judged, conditions, components, work = sizes
+    order, (judged, conditions, components, work) = program[0], sizes
     vectors = -(-width // LANES)
-    length, row = vectors * LANES, (order + 1) * components
-    lengths = (-(-work // 8) * 8, STATES * length, TOLD, width + 2 + constants.size, 2 * row)
+    length, rows = vectors * LANES, 2 * (order + 1) * components
+    lengths = (-(-work // 8) * 8, STATES * length, TOLD, width + 2 + constants, rows)
     ends = list(accumulate(lengths))
     block = aligned(ends[-1] + LANES)  # the last vector goes past the last row
-    of_work, states, of_steps, given = (block[end - size : end] for end, size in zip(ends[:-1], lengths, strict=False))
-    given[0], given[1 : 1 + width], given[2 + width :] = 1.0, state, constants
-    of_steps[TOLERANCE : TOLERANCE + len(told)] = told
-    for row in (OLD, NEW):
-        states[row * length : row * length + width] = state
+    of_work, states, told, given, both = (block[end - size : end] for end, size in zip(ends, lengths, strict=True))
     return Series(
         code,
         order,
         width,
         conditions,
         given,
-        block[ends[-2] : ends[-1]].reshape(2, order + 1, components),
+        both.reshape(2, order + 1, components),
         of_work,
-        np.array(program),
+        np.array(program, dtype=np.int64),
         states.reshape(STATES, length),
-        of_steps,
-        np.array((order, components, vectors, width, judged)),
+        told,
+        np.array((order, components, vectors, width, judged), dtype=np.int64),
     )
+
+
+def begin_series(series: Series, told: tuple[float, ...], state: Floats, constants: Floats) -> None:
+    """A motion begins, whatever the arrays were used for before; `told` is what stands from the place TOLERANCE on.
+
+    `state` has shape (width,), `constants` shape (constants,).
+    """
+    width, given = series.width, series.given
+    given[0], given[1 : 1 + width], given[2 + width :] = 1.0, state, constants
+    series.told[TOLERANCE : TOLERANCE + len(told)] = told
+    series.states[:] = 0.0
+    series.states[: NEW + 1, :width] = state
 
 
 class Choice(NamedTuple):
@@ -303,15 +305,15 @@ def accept_step(states: Floats) -> None:
 
 @kernel
 def integrate_series(
-    motion: Motion, series: Series, control: Control, watch: Watch, derivative: Floats, times: Floats, out: Floats
+    motion: Motion, series: Series, control: Control, watch: Watch, times: Floats, out: Floats
 ) -> Result:
     """Steps from times[0] to times[-1]; out[i] becomes the state at times[i], as far as all goes well.
 
-    The initial state stands in the first two rows of `series.states`. `derivative` has shape (width,), `times` shape
-    (samples,), `out` shape (samples, width).
+    The motion has begun by `begin_series`. `times` has shape (samples,), `out` shape (samples, width).
     """
     t, time_compensation, plan, n = times[0], 0.0, control.plan, motion.degrees
     old, new = series.states[OLD, : series.width], series.states[NEW, : series.width]
+    derivative = series.states[SLOPES, : series.width]  # for as long as there is no step
     outcome = begin(motion, plan, watch, t, old, derivative, out)
     row, piece, filled, steps, rejected = runtime_int(0), runtime_int(0), runtime_int(1), runtime_int(0), runtime_int(0)
     is_known, least, near, wanted = False, np.inf, control.largest_step, np.inf

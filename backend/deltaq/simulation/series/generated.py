@@ -109,6 +109,7 @@ class _Writer:
         for d, value in enumerate(following):
             code.do(f"{now[d]} = phi {code.kind} [ {value}, %entry ], [ %xn{d}, %chain ]")
         code.do(f"%t = phi {code.kind} [ {unit}, %entry ], [ {code.number(0.0)}, %chain ]")
+        code.do("%inverse = phi double [ 1.0, %entry ], [ %inverse.n, %chain ]")
         for name in map(name_of, self.sums.before):
             code.do(f"%{name} = phi {code.kind} [ {code.number(0.0)}, %entry ], [ %{name}.n, %chain ]")
         self._order([*now[: 2 * r_.degrees], "%t"], now, begin, kept_, conditions, constants, unit)
@@ -160,7 +161,7 @@ class _Writer:
         r_, code = self.recurrences, self.code
         sums = self.sums.write(code, "%k")
         order = code.spread(code.new("sitofp i64 %k to double"))
-        inverse = code.divide(code.number(1.0), order)
+        inverse = code.spread("%inverse")
         values = list(inputs)
         row, asked = self.sums.row(code, "%k"), wanted(r_)
         for place, value in enumerate(inputs):
@@ -204,8 +205,8 @@ class _Writer:
         """What an order leaves: coefficients of the state and of conditions' arguments; and the next order, if any."""
         code = self.code
         code.do("%kn = add i64 %k, 1")
-        next_order = code.spread(code.new("sitofp i64 %kn to double"))
-        following = self._integrated(state, values, unit, next_order)
+        code.do(f"%inverse.n = fdiv double 1.0, {code.new('sitofp i64 %kn to double')}")
+        following = self._integrated(state, values, unit, code.spread("%inverse.n"))
         self._out_conditions("%k", values)
         self._out_state("%kn", following)
         for d, value in enumerate(following):
@@ -225,10 +226,10 @@ class _Writer:
                 if series in self.sums.before:
                     self.code.do(f"%{name_of(series)}.n = bitcast {self.code.kind} {kept_} to {self.code.kind}")
 
-    def _integrated(self, state: list[str], values: list[str], unit: str, next_order: str) -> list[str]:
-        """The next coefficients of the state: those of its derivative times H / (k + 1)."""
+    def _integrated(self, state: list[str], values: list[str], unit: str, inverse: str) -> list[str]:
+        """The next coefficients of the state: those of its derivative times H / (k + 1), 1/(k + 1) being known."""
         r_, code = self.recurrences, self.code
-        share = code.divide(unit, next_order)
+        share = code.multiply(unit, inverse)
         rates = [*state[r_.degrees : 2 * r_.degrees], *(values[place] for place in r_.accelerations)]
         rates += [] if r_.power is None else [values[r_.power]]
         return [code.multiply(rate, share) for rate in rates]

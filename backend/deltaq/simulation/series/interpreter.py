@@ -86,8 +86,8 @@ class _Writer:
             self._stored("multiple", head[p.MULTIPLE], head[p.MULTIPLE + 1], now, row, times)
             self._conditions("any", head, k, now)
             following = code.new(f"add i64 {k}, 1")
-            share = code.divide(unit, code.new(f"sitofp i64 {following} to double"))
-            self._next("any", head, following, now, now, share)
+            inverse = code.divide(code.number(1.0), code.new(f"sitofp i64 {following} to double"))
+            self._next("any", head, following, now, now, code.multiply(unit, inverse))
             code.store(code.number(0.0), now, time)
 
         self.times("order", code.new(f"sub i64 {head[0]}, 1"), order)

@@ -108,10 +108,11 @@ def _root(code: Code, x: Operands) -> str:
 
 
 def _power(code: Code, x: Operands) -> str:
-    """a y′ = γ y a′ solved for yₖ."""
-    rest = code.multiply_add(x.constant, x.sums[0], code.negative(x.sums[1]))
+    """a y′ = γ y a′ solved for yₖ: γ Σ j aⱼ yₖ₋ⱼ − Σ (k − j) aⱼ yₖ₋ⱼ, without products of k and yₖ to wait for."""
+    share = code.multiply(code.add(x.constant, code.number(1.0)), x.inverse)
+    rest = code.multiply_add(share, x.sums[0], code.negative(x.sums[1]))
     slope = code.multiply(code.multiply(x.constant, x.y0), x.extra)
-    return code.multiply_add(x.a, slope, code.multiply(rest, code.multiply(x.extra, x.inverse)))
+    return code.multiply_add(x.a, slope, code.multiply(rest, x.extra))
 
 
 def _rise(code: Code, x: Operands) -> str:
