@@ -116,6 +116,23 @@ def test_what_only_values_show(left: str, right: str, decision: Decision) -> Non
     assert zero_test(read(left) - read(right), SYMBOLS) == decision
 
 
+PIECES = ("sign({})", "abs({})", "max({}, 0)", "min({}, 0)", "step({})")
+
+
+@pytest.mark.parametrize("seed", range(120))
+def test_functions_in_pieces_that_agree_on_most_of_them_are_different(seed: int) -> None:
+    """c (f(a) − f(b)) with f a modulus, a sign …: where a and b have one sign, or that with f = 0, nothing is seen."""
+    source = random.Random(seed)
+    names = source.sample(("x", "y", "phi", "m", "l", "k"), 4)
+    small = source.choice(("{1}", "{1}/20", "{1} + {2}", "{1}*{2}", "{1}^2/3")).format(*names)
+    piece = source.choice(PIECES)
+    left, right = piece.format(f"{names[0]} - ({small})"), piece.format(names[0])
+    expression = (
+        read(f"{names[3]}*({left} - {right})") if piece != "abs({})" else read(f"({left})^2 - ({left})*({small})")
+    )
+    assert is_zero(expression, SYMBOLS) is False
+
+
 @pytest.mark.parametrize(
     ("text", "exact"),
     [

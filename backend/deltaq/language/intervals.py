@@ -17,6 +17,7 @@ from .functions import FUNCTIONS, KINKED
 PRECISIONS = (96, 400, 4000)
 POINTS = 12
 ENOUGH_POINTS = 4
+MANY_POINTS, LARGEST_POWER = 150, 3
 # A value is called zero if all balls are this much smaller than the largest term: 2^-3000 is about 1e-903.
 _NEGLIGIBLE_BITS = 3000
 
@@ -46,6 +47,8 @@ _FUNCTIONS: Mapping[Any, Callable[..., Any]] = MappingProxyType(
     }
 )
 
+_PIECEWISE = (sympy.Abs, sympy.sign, sympy.Max, sympy.Min, sympy.Heaviside)
+
 Sign = Literal["nonzero", "negligible", "unknown"]
 
 
@@ -54,15 +57,20 @@ def sample_zero(expr: Any) -> tuple[bool | None, int]:
 
     False is certain: a ball excludes zero. True means that at all points, at least four, the value is below 1e-900 of
     its largest term; for an analytic function that is not zero this happens with probability zero, unless it is flat to
-    900 digits. None: too few points lie in its domain.
+    900 digits. One that is put together of pieces may vanish on some of them: it is looked at in many more places, of
+    all sizes. None: too few points lie in its domain.
     """
-    points = _points(sorted(expr.free_symbols, key=lambda s: s.name))
+    symbols = sorted(expr.free_symbols, key=lambda s: s.name)
     seen = 0
-    for point in points:
+    for point in _points(symbols):
         sign = _sign(expr, point)
         if sign == "nonzero":
             return False, seen + 1
         seen += sign == "negligible"
+    if seen >= ENOUGH_POINTS and expr.has(*_PIECEWISE):
+        found = next((k for k, point in enumerate(_far_points(symbols)) if _is_nonzero(expr, point)), None)
+        if found is not None:
+            return False, seen + found + 1
     return (True if seen >= ENOUGH_POINTS else None), seen
 
 
@@ -74,6 +82,28 @@ def _points(symbols: list[Any]) -> Iterator[dict[Any, Any]]:
             s: sympy.Rational(generator.randint(150, 2600), 1009) * (1 if s.is_positive else generator.choice((-1, 1)))
             for s in symbols
         }
+
+
+def _far_points(symbols: list[Any]) -> Iterator[dict[Any, Any]]:
+    """More of them, from a thousandth to a thousand, in which all pieces that are not small have their turn."""
+    generator = random.Random(1_906)
+    for _ in range(MANY_POINTS):
+        yield {
+            s: sympy.Rational(generator.randint(150, 2600), 1009)
+            * sympy.Integer(10) ** generator.randint(-LARGEST_POWER, LARGEST_POWER)
+            * (1 if s.is_positive else generator.choice((-1, 1)))
+            for s in symbols
+        }
+
+
+def _is_nonzero(expr: Any, point: Mapping[Any, Any]) -> bool:
+    """Whether that is certain with the fewest digits."""
+    with flint.ctx.workprec(PRECISIONS[0]):
+        try:
+            total = _Ball(point).of(expr)
+        except (ValueError, ZeroDivisionError, OverflowError):
+            return False
+        return bool(total.is_finite() and not total.contains(0))
 
 
 def _sign(expr: Any, point: Mapping[Any, Any]) -> Sign:
