@@ -36,9 +36,11 @@ RungStatus = Literal[Status, "refused"]
 Stability = Literal["stable", "undecided", "unstable"]
 # What it leaves open: neighbours at rest, too; forces across the velocity that hold it; zero eigenvalues; friction.
 StabilityKind = Literal["family", "gyroscopic", "degenerate", "band"]
+# What a range of rest ends at: where forces overcome friction, where one of them jumps or bends, or a wall.
+RangeEnd = Literal["force", "kink", "bend", "contact"]
 # Why a search for equilibria is not complete: its operations were spent, equilibria are not isolated, or constraints
-# depend on one another in some of them.
-SearchEnd = Literal["budget", "continuum", "singular", "kinks", "contacts"]
+# depend on one another in some of them; or those at kinks, on contacts, or held by friction were not all sought.
+SearchEnd = Literal["budget", "continuum", "singular", "kinks", "contacts", "friction"]
 # Parts that a derivation is complete without, and why one is missing: it has not been asked for, its operations were
 # spent, its time was over, it failed, or it is not made for scenes with constraints, or on rates; and of multipliers
 # written out: they are too long or too many.
@@ -47,6 +49,7 @@ OptionalPart = Literal[
     "model",
     "equilibria",
     "contact-equilibria",
+    "kink-equilibria",
     "small-motions",
     "integrals",
     "relative-equilibria",

@@ -2863,6 +2863,17 @@ export interface components {
              * @default []
              */
             contact_equilibria: components["schemas"]["ContactEquilibrium"][];
+            /**
+             * Kink Equilibria
+             * @default []
+             */
+            kink_equilibria: components["schemas"]["KinkEquilibrium"][];
+            /**
+             * Rest Ranges
+             * @description of scenes with one degree of freedom
+             * @default []
+             */
+            rest_ranges: components["schemas"]["RestRange"][];
             /** @description null where the laws depend on time */
             equilibrium_search: components["schemas"]["EquilibriumSearch"] | null;
             symmetry_search: components["schemas"]["SymmetrySearch"];
@@ -3068,6 +3079,36 @@ export interface components {
          * @enum {string}
          */
         DriftVerdict: "lost" | "rounding" | "bounded" | "linear" | "grows" | "unclear";
+        /**
+         * EndOfRest
+         * @description Where a range of rest ends.
+         */
+        EndOfRest: {
+            /**
+             * Plain
+             * @example m*l^2*dot(phi)^2/2
+             */
+            plain: string;
+            /** Latex */
+            latex: string;
+            /**
+             * Spoken
+             * @description the same in words, to be read aloud
+             * @default
+             */
+            spoken: string;
+            /**
+             * Number
+             * @description the value in this scene
+             */
+            number: number;
+            /**
+             * At
+             * @description where a force exceeds friction, or jumps or bends, or at a contact
+             * @enum {string}
+             */
+            at: "force" | "kink" | "bend" | "contact";
+        };
         /**
          * Energy
          * @description Energies at the samples in joule, the work of the other forces, and the balance kinetic + potential − work.
@@ -3518,7 +3559,7 @@ export interface components {
         };
         /**
          * EquilibriumSearch
-         * @description Whether the equilibria are all there are, those on closed contacts included.
+         * @description Whether these are all positions of rest, those on closed contacts, at kinks and in ranges included.
          */
         EquilibriumSearch: {
             /** Complete */
@@ -3542,7 +3583,7 @@ export interface components {
              * Left Out
              * @description why it is not complete
              */
-            left_out: ("budget" | "continuum" | "singular" | "kinks" | "contacts") | null;
+            left_out: ("budget" | "continuum" | "singular" | "kinks" | "contacts" | "friction") | null;
         };
         /**
          * EquilibriumValue
@@ -4336,6 +4377,14 @@ export interface components {
             color?: string | null;
         };
         /**
+         * ForcesBeside
+         * @description The least force that acts below a kink, and the largest above it, as what rests there begins to move.
+         */
+        ForcesBeside: {
+            below: components["schemas"]["EquilibriumValue"];
+            above: components["schemas"]["EquilibriumValue"];
+        };
+        /**
          * Forcing
          * @description f of M(q, t) q̈ = f(q, q̇, t).
          */
@@ -4742,6 +4791,51 @@ export interface components {
             equals_energy: boolean;
         };
         /**
+         * KinkEquilibrium
+         * @description A state of rest where a force jumps from one sign to the other, as at the minimum of |x|.
+         */
+        KinkEquilibrium: {
+            /**
+             * Values
+             * @description a coordinate that is missing may have any value
+             */
+            values: {
+                [key: string]: components["schemas"]["EquilibriumValue"];
+            };
+            /**
+             * Switches
+             * @description what is zero there, and changes a force with its sign
+             */
+            switches: components["schemas"]["Formula"][];
+            /** @description of one coordinate */
+            forces: components["schemas"]["ForcesBeside"] | null;
+            /**
+             * Shares
+             * @description of several: what balances the forces in the place of each sign, from -1 to 1
+             */
+            shares: components["schemas"]["EquilibriumValue"][];
+            /**
+             * Contacts
+             * @description that are closed there
+             */
+            contacts: string[];
+            /**
+             * Exact
+             * @description whether the values are closed forms in the parameters
+             */
+            exact: boolean;
+            /**
+             * Free
+             * @description coordinates that may have any value
+             */
+            free: string[];
+            /**
+             * Stability
+             * @enum {string}
+             */
+            stability: "stable" | "undecided" | "unstable";
+        };
+        /**
          * LadderRung
          * @description A model: what is left out, and the scene that this leads to.
          */
@@ -4798,7 +4892,7 @@ export interface components {
              * @description `model` is all of it
              * @enum {string}
              */
-            part: "multipliers" | "model" | "equilibria" | "contact-equilibria" | "small-motions" | "integrals" | "relative-equilibria" | "canonical";
+            part: "multipliers" | "model" | "equilibria" | "contact-equilibria" | "kink-equilibria" | "small-motions" | "integrals" | "relative-equilibria" | "canonical";
             /**
              * Reason
              * @description `later`: ask for it; `budget`: its operations are spent; `time`: its time is; `failed`: our bug; others are of the scene's own
@@ -6682,6 +6776,24 @@ export interface components {
              * @default
              */
             spoken: string;
+        };
+        /**
+         * RestRange
+         * @description A range in which the coordinate rests anywhere; null where there is no end to it.
+         */
+        RestRange: {
+            /**
+             * Coordinate
+             * @example x
+             */
+            coordinate: string;
+            low: components["schemas"]["EndOfRest"] | null;
+            high: components["schemas"]["EndOfRest"] | null;
+            /**
+             * Friction
+             * @description whether dry friction holds it; else no force acts there
+             */
+            friction: boolean;
         };
         /**
          * RouthFunction

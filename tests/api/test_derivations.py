@@ -60,6 +60,8 @@ async def test_every_scene_is_derived(client: httpx.AsyncClient, scene: str, lan
         "symmetry_search",
         "equilibria",
         "contact_equilibria",
+        "kink_equilibria",
+        "rest_ranges",
         "equilibrium_search",
         "jacobi_energy",
         "routh",

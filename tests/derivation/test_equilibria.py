@@ -263,33 +263,35 @@ def test_a_pole_of_the_coordinates_is_no_rest_where_a_force_acts_along_the_surfa
 
 
 KINKS = [
-    pytest.param("k*abs(x^2-1) + c*x", 1, "kinks", id="two wells with a kink at the bottom of each"),
-    pytest.param("k*abs(x) + c*x", 0, "kinks", id="a valley with a kink"),
-    pytest.param("max(k*x, -c*x)", 0, "kinks", id="two slopes"),
-    pytest.param("k*abs(x)^3/3 + c*x", 1, None, id="a force that bends and does not jump"),
-    pytest.param("k*(x-c)*abs(x-c)/2 + 3*m*x^2", 1, None, id="a modulus beside its own zero"),
-    pytest.param("k*(x-1)^2", 1, None, id="no switch"),
+    pytest.param("k*abs(x^2-1) + c*x", 1, 2, "kinks-all", id="two wells with a kink at the bottom of each"),
+    pytest.param("k*abs(x) + c*x", 0, 1, "kinks-all", id="a valley with a kink"),
+    pytest.param("c*abs(x) + k*x", 0, 0, "kinks-without", id="a bend in a slope"),
+    pytest.param("max(k*x, -c*x)", 0, 1, "kinks-all", id="two slopes"),
+    pytest.param("k*abs(x)^3/3 + c*x", 1, 0, "in-range", id="a force that bends and does not jump"),
+    pytest.param("k*(x-c)*abs(x-c)/2 + 3*m*x^2", 1, 0, "in-range", id="a modulus beside its own zero"),
+    pytest.param("k*(x-1)^2", 1, 0, "everywhere", id="no switch"),
 ]
 
 
-@pytest.mark.parametrize(("energy", "count", "left_out"), KINKS)
-def test_where_a_force_jumps_a_search_does_not_claim_to_be_complete(
-    energy: str, count: int, left_out: str | None
+@pytest.mark.parametrize(("energy", "count", "kinks", "outcome"), KINKS)
+def test_positions_beside_jumps_are_counted_and_those_at_jumps_as_well(
+    energy: str, count: int, kinks: int, outcome: str
 ) -> None:
     """Least energy at a kink, with a force on either side: |x² − 1| at ±1, k|x| + cx at 0 for k > c."""
     scene = particle(["x"], {"k": 2.0, "c": 0.5}, ["x", "0"], {"kind": "potential", "energy": energy})
     answer = derive_request({"scene": write_scene(scene)})["result"]
     told = answer["equilibrium_search"]  # type: ignore[index]
-    assert (told["count"], told["complete"], told["left_out"]) == (count, left_out is None, left_out)
+    assert (told["count"], told["complete"], told["left_out"]) == (count, True, None)
+    assert len(answer["kink_equilibria"]) == kinks  # type: ignore[index]
     step = model_steps(scene).get("equilibrium-search")
-    outcome = step.about["outcome"] if step else "everywhere"
-    assert outcome.startswith("kinks" if left_out else ("in-range", "everywhere"))
-    assert outcome.endswith("-none") == (count == 0)
+    assert (step.about["outcome"] if step else "everywhere") == outcome
 
 
-def test_where_a_force_jumps_rest_on_contacts_is_not_all_of_it() -> None:
-    """A ball on a floor whose potential has a valley with a kink."""
+def test_a_ball_above_a_floor_rests_at_a_kink_of_its_potential() -> None:
+    """A valley of slope 2 m g with a kink at a height of 1/2, above a floor on which nothing presses it."""
     document = write_scene(load_scene("bouncing-ball"))
     document["loads"].append({"kind": "potential", "name": "V", "energy": "m*g*abs(z - 1/2)*2"})  # type: ignore[attr-defined]
     answer = derive_request({"scene": document})["result"]
-    assert answer["equilibrium_search"]["left_out"] == "kinks"  # type: ignore[index]
+    (kink,) = answer["kink_equilibria"]  # type: ignore[index]
+    assert (kink["values"]["z"]["number"], kink["stability"]) == (0.5, "stable")
+    assert answer["equilibrium_search"]["complete"]  # type: ignore[index]

@@ -9,6 +9,7 @@ from dataclasses import fields, is_dataclass, replace
 import numpy as np
 import pytest
 import sympy as sp
+from tests.derivation.kinked_scenes import document
 from tests.derivation.model_scenes import particle
 from tests.derivation.textbook_integrals import SYSTEMS, Published, mass, plane, potential, scene
 
@@ -24,6 +25,7 @@ from deltaq.derivation.symmetry import symmetries
 from deltaq.derivation.system import System
 from deltaq.derivation.verification import random_points, verified_step
 from deltaq.language.parser import parse
+from deltaq.mechanics.document import read_scene
 from deltaq.mechanics.library import load_scene, scene_ids
 from deltaq.mechanics.scene import Scene
 from deltaq.mechanics.writing import write_scene
@@ -222,6 +224,13 @@ def test_two_equal_parameters_are_a_condition() -> None:
 
 def test_a_nearly_equal_stiffness_is_no_symmetry() -> None:
     assert symmetries(System(plane({"k1": 2, "k2": 2.0001}, potential("k1*x^2/2+k2*y^2/2")))) == ()
+
+
+@pytest.mark.parametrize("energy", ["k*abs(x - a)", "k*abs(x - a) + m*g*x", "k*max(x - a, 0)", "k*min(a*x, x)"])
+def test_a_force_that_jumps_is_not_constant(energy: str) -> None:
+    """Its slope is zero beside the jump, and p − F t is no integral of motion."""
+    scene_with_jump = document([potential(energy)], {"k": 20.0, "a": 0.5})
+    assert symmetries(System(read_scene(scene_with_jump))) == ()
 
 
 def random_scene(seed: int) -> tuple[Scene, int]:

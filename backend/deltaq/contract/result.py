@@ -6,7 +6,7 @@ from typing import Literal
 
 from pydantic import Field
 
-from ..vocabulary import CurlOutcome, GeneratorFamily, HoldKind, SearchEnd, Stability, StabilityKind
+from ..vocabulary import CurlOutcome, GeneratorFamily, HoldKind, RangeEnd, SearchEnd, Stability, StabilityKind
 from .base import Answer
 
 Change = Literal["kept", "sign-turned", "differentiated", "integrated", "expanded", "merged"]
@@ -331,8 +331,45 @@ class ContactEquilibrium(Answer):
     stability: Stability
 
 
+class ForcesBeside(Answer):
+    """The least force that acts below a kink, and the largest above it, as what rests there begins to move."""
+
+    below: EquilibriumValue
+    above: EquilibriumValue
+
+
+class KinkEquilibrium(Answer):
+    """A state of rest where a force jumps from one sign to the other, as at the minimum of |x|."""
+
+    values: dict[str, EquilibriumValue] = Field(description="a coordinate that is missing may have any value")
+    switches: tuple[Formula, ...] = Field(description="what is zero there, and changes a force with its sign")
+    forces: ForcesBeside | None = Field(description="of one coordinate")
+    shares: tuple[EquilibriumValue, ...] = Field(
+        description="of several: what balances the forces in the place of each sign, from -1 to 1"
+    )
+    contacts: tuple[str, ...] = Field(description="that are closed there")
+    exact: bool = Field(description="whether the values are closed forms in the parameters")
+    free: tuple[str, ...] = Field(description="coordinates that may have any value")
+    stability: Stability
+
+
+class EndOfRest(EquilibriumValue):
+    """Where a range of rest ends."""
+
+    at: RangeEnd = Field(description="where a force exceeds friction, or jumps or bends, or at a contact")
+
+
+class RestRange(Answer):
+    """A range in which the coordinate rests anywhere; null where there is no end to it."""
+
+    coordinate: str = Field(examples=["x"])
+    low: EndOfRest | None
+    high: EndOfRest | None
+    friction: bool = Field(description="whether dry friction holds it; else no force acts there")
+
+
 class EquilibriumSearch(Answer):
-    """Whether the equilibria are all there are, those on closed contacts included."""
+    """Whether these are all positions of rest, those on closed contacts, at kinks and in ranges included."""
 
     complete: bool
     count: int = Field(description="how many there are with all contacts open; the first 32 are listed")
@@ -360,6 +397,8 @@ class DerivationResult(Answer):
     conserved: tuple[ConservedQuantity, ...]
     equilibria: tuple[Equilibrium, ...]
     contact_equilibria: tuple[ContactEquilibrium, ...] = ()
+    kink_equilibria: tuple[KinkEquilibrium, ...] = ()
+    rest_ranges: tuple[RestRange, ...] = Field((), description="of scenes with one degree of freedom")
     equilibrium_search: EquilibriumSearch | None = Field(description="null where the laws depend on time")
     symmetry_search: SymmetrySearch
     jacobi_energy: JacobiEnergy

@@ -19,6 +19,7 @@ import sympy as sp
 from flint import arb, arb_mat, ctx
 
 from ..language.memory import cached_method
+from ..vocabulary import SearchEnd
 from .calculus import column
 from .closed_form import Sought, closed_form
 from .enclosure import Budget
@@ -72,7 +73,7 @@ def within(system: System, budget: Budget) -> Search:
     """The search with all contacts open, with what is left of a budget."""
     laws = _laws(system)
     equations = [equation.xreplace(dict(system.parameter_values)) for equation in laws.equations]
-    solver = Solver(_domain(system, laws.unknowns), system.is_zero, budget, BRANCHES)
+    solver = Solver(domain_with(system, laws.unknowns), system.is_zero, budget, BRANCHES)
     solved = solver.solve(equations, laws.unknowns)
     placed = sorted(solved.found, key=lambda each: _place(system, each))
     known = [_recognized(system, laws, each) for each in placed]
@@ -81,9 +82,9 @@ def within(system: System, budget: Budget) -> Search:
     found = tuple(each for each in balanced if is_within(system, numbers_at(system, each)))
     complete = solved.complete and len(balanced) == len(known)
     ranges = {q: domain(system).ranges[system.q(q)] for q in system.free if system.q(q) in solved.ranged}
-    reason = "budget" if budget.left <= 0 else "continuum" if len(regular) == len(known) else "singular"
+    reason: SearchEnd = "budget" if budget.left <= 0 else "continuum" if len(regular) == len(known) else "singular"
     beyond = len(balanced) - len(found)
-    return Search(found[:MOST], len(found), complete, ranges, "" if complete else reason, beyond)
+    return Search(found[:MOST], len(found), complete, ranges, None if complete else reason, beyond)
 
 
 @dataclass(frozen=True)
@@ -131,8 +132,8 @@ def smooth_matrix(system: System) -> sp.ImmutableMatrix:
     )
 
 
-def _domain(system: System, unknowns: tuple[sp.Symbol, ...]) -> Domain:
-    """That of the coordinates; multipliers up to ten times the forces where the scene starts."""
+def domain_with(system: System, unknowns: tuple[sp.Symbol, ...]) -> Domain:
+    """The domain of the coordinates; multipliers up to ten times the forces where the scene starts."""
     own = domain(system)
     with ctx.workprec(BITS):
         forces = [float(abs(number(f, start_point(system))).mid()) for f in forces_at_rest(system)]

@@ -88,7 +88,7 @@ def contact_search(system: System) -> ContactSearch | None:
     """The search for all of them; None where there is no contact, or time is in the laws."""
     if not bouncing(system) or not is_autonomous(system):
         return None
-    if not is_sought(system) or frictions(system):
+    if not is_sought(system) or (frictions(system) and len(system.free) > 1):
         return NOT_SOUGHT
     still = tuple(event for event in bouncing(system) if not moves(system, event))
     if any(gap(system, event).has(system.t) for event in still):
@@ -101,9 +101,14 @@ def contact_search(system: System) -> ContactSearch | None:
     found = list[ContactEquilibrium]()
     for each in (one for search in searches for one in search.found):
         found += [each] if _is_new(system, each, found) else []
-    complete = len(choices) <= MOST and all(search.complete for search in searches) and not is_jumping(system)
+    complete = len(choices) <= MOST and all(search.complete for search in searches) and not _jumps_there(system)
     ranges = {q: ends for search in searches for q, ends in search.ranges.items()}
     return ContactSearch(tuple(sorted(found, key=lambda each: ORDER.index(each.stability))), complete, ranges)
+
+
+def _jumps_there(system: System) -> bool:
+    """Whether a force may jump on a contact; of one coordinate kinks are apart from contacts, or met by themselves."""
+    return is_jumping(system) and len(system.free) > 1
 
 
 def _with_closed(system: System, contacts: tuple[Event, ...], degrees: int, budget: Budget) -> ContactSearch:

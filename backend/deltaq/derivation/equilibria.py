@@ -24,17 +24,19 @@ from itertools import islice, product
 import sympy as sp
 from flint import arb, arb_mat, ctx
 
-from ..language.derivatives import diff
 from ..language.memory import cached_method
 from ..mechanics.coordinate import Coordinate
+from ..vocabulary import SearchEnd
 from .closed_form import Known, Sought, closed_form
 from .enclosure import Budget
 from .matrix_form import forces_at_rest, forcing, is_autonomous, mass_matrix
 from .program import number
 from .refinement import in_numbers, refined
 from .solving import Domain, Solution, Solutions, Solver
+from .switches import Signs, beside, switches
 from .system import System
 
+MOST_SWITCHES = 4  # of forces that jump: each doubles the regions
 MOST = 32  # equilibria that are looked at; more are counted
 RANGE = 10  # times the largest length that the scene names: how far coordinates are searched
 OPERATIONS = 600_000  # in ball arithmetic, of all searches of a scene: about half a second
@@ -77,7 +79,7 @@ class Search:
     count: int
     complete: bool
     ranges: Mapping[str, tuple[float, float]]
-    left_out: str = ""
+    left_out: SearchEnd | None = None
     beyond: int = 0
 
     @property
@@ -88,64 +90,106 @@ class Search:
 
 @dataclass(frozen=True)
 class _Part:
-    """Equations that hang together, and the unknowns in them."""
+    """Equations that hang together, the unknowns in them, and the forces that they are on one side of their jumps."""
 
     equations: tuple[sp.Expr, ...]
     unknowns: tuple[Coordinate, ...]
+    stated: tuple[sp.Expr, ...]
 
 
 @cached_method
 def search(system: System) -> Search | None:
-    """The search for all equilibria; None where time is in the laws."""
+    """The search for all equilibria; None where time is in the laws.
+
+    Where forces jump, in each region between the jumps by itself; those at a jump are another search's.
+    """
     if not is_autonomous(system):
         return None
-    parts = list(_parts(system))
+    found = _in_regions(system, Budget(OPERATIONS)) if 0 < len(switches(system)) <= MOST_SWITCHES else None
+    if found is not None:
+        return found
+    whole = _with(system, forces_at_rest(system), {}, Budget(OPERATIONS))
+    if not is_jumping(system):
+        return beside_jumps(system, whole)
+    return _off_switches(system, whole)
+
+
+def _off_switches(system: System, found: Search) -> Search:
+    """What was found of forces that jump, without what only seems to vanish as the sign of zero is zero."""
+    kept = tuple(each for each in found.found if not _is_on_switch(system, each))
+    count = found.count - len(found.found) + len(kept)
+    return replace(found, found=kept, count=count, complete=False, left_out=found.left_out or "continuum")
+
+
+def _is_on_switch(system: System, equilibrium: Equilibrium) -> bool:
+    with ctx.workprec(BITS):
+        point = point_at(system, equilibrium)
+        return any(not bool(abs(number(s, dict(point))) > NOTHING) for s in switches(system))
+
+
+def _in_regions(system: System, budget: Budget) -> Search | None:
+    """The search of every region; None where one is flat, so that its equilibria are no isolated ones."""
+    parts: list[Search] = []
+    for chosen in product((sp.Integer(1), sp.Integer(-1)), repeat=len(switches(system))):
+        signs = dict(zip(switches(system), chosen, strict=True))
+        forces = sp.ImmutableMatrix(beside(system, forces_at_rest(system), signs))
+        parts.append(_with(system, system.display(forces), signs, budget))
+        if not all(_is_isolated(system, each) for each in parts[-1].found):
+            return None
+    found = sorted((each for part in parts for each in part.found), key=lambda each: _place_of(system, each))
+    ranges = {q: ends for part in parts for q, ends in part.ranges.items()}
+    reason: SearchEnd = next((part.left_out for part in parts if part.left_out), "kinks")
+    beyond = sum(part.beyond for part in parts)
+    count = sum(part.count for part in parts)
+    return Search(tuple(found[:MOST]), count, complete=False, ranges=ranges, left_out=reason, beyond=beyond)
+
+
+def _is_isolated(system: System, equilibrium: Equilibrium) -> bool:
+    """Whether it has no neighbours but by coordinates that never matter."""
+    free = free_coordinates(system)
+    return equilibrium.free == free and len(equilibrium.values) + len(free) == len(system.free)
+
+
+def _place_of(system: System, equilibrium: Equilibrium) -> tuple[float, list[float]]:
+    with ctx.workprec(BITS):
+        point = point_at(system, equilibrium)
+    return _place([float(point[q.name].mid()) for q in equilibrium.values])
+
+
+def _with(system: System, forces: sp.ImmutableMatrix, signs: Signs, budget: Budget) -> Search:
+    """The search where forces at rest are these and the switching functions have these signs."""
+    parts = list(_parts(system, forces))
     if any(not part.unknowns for part in parts):
-        return beside_jumps(system, Search((), 0, complete=True, ranges={}))
-    budget = Budget(OPERATIONS)
+        return Search((), 0, complete=True, ranges={})
     solved = [_solved(system, part, budget) for part in parts]
     known = [[_recognized(system, part, each) for each in s.found] for part, s in zip(parts, solved, strict=True)]
     complete = all(s.complete for s in solved) and all(one is not None for each in known for one in each)
-    found, count, beyond = _combined(system, [[one for one in each if one is not None] for each in known])
+    found, count, beyond = _combined(system, [[one for one in each if one is not None] for each in known], signs)
     ranged = frozenset[sp.Symbol]().union(*(s.ranged for s in solved))
     ranges = {q: domain(system).ranges[system.q(q)] for q in system.free if system.q(q) in ranged}
-    reason = "" if complete else "budget" if budget.left <= 0 else "continuum"
-    return beside_jumps(system, Search(found, count, complete, ranges, reason, beyond))
+    reason: SearchEnd | None = None if complete else "budget" if budget.left <= 0 else "continuum"
+    return Search(found, count, complete, ranges, reason, beyond)
 
 
 def beside_jumps(system: System, found: Search) -> Search:
     """The search as what it is: one for equilibria beside jumps of the forces, with all contacts open."""
-    if is_jumping(system) and found.left_out in {"", "continuum"}:
+    if is_jumping(system) and found.left_out in {None, "continuum"}:
         return replace(found, complete=False, left_out="kinks")
     if not found.complete or not any(event.bounces for event in system.scene.events):
         return found
     return replace(found, complete=False, left_out="contacts")
 
 
-@cached_method
 def is_jumping(system: System) -> bool:
-    """Whether a force jumps anywhere as coordinates change. One that is multiplied by zero there does not."""
-    forces = system.display(forces_at_rest(system).xreplace(dict(system.parameter_values)))
-    return any(_jumps(system, force, switch) for force in forces for switch in force.atoms(sp.sign, sp.Heaviside))
+    """Whether a force jumps anywhere as coordinates change."""
+    return bool(switches(system))
 
 
-def _jumps(system: System, force: sp.Expr, switch: sp.Expr) -> bool:
-    """Whether a force is another one on either side of where a switch is zero; where that is not known, it is."""
-    (value,) = switch.args[:1]
-    difference = force.xreplace({switch: sp.Integer(1)}) - force.xreplace({switch: switch.func(-1)})
-    slopes = {q: diff(value, q) for q in map(system.q, system.free) if value.has(q)}
-    linear = next((q for q, slope in slopes.items() if slope.is_number and slope != 0), None)
-    if linear is None:
-        return bool(slopes)
-    crossing = linear - value / slopes[linear]
-    return not system.is_zero(difference.xreplace({linear: crossing}))
-
-
-def _combined(system: System, parts: list[list[Equilibrium]]) -> tuple[tuple[Equilibrium, ...], int, int]:
+def _combined(system: System, parts: list[list[Equilibrium]], signs: Signs) -> tuple[tuple[Equilibrium, ...], int, int]:
     """All choices of one for each part that are at rest, the first of them merged; how many, and how many beyond."""
     merged = (_merged(system, each) for each in product(*parts))
-    resting = (each for each in merged if rests(system, each))
-    if not system.scene.events:
+    resting = (each for each in merged if has_signs(system, each, signs) and rests(system, each))
+    if not system.scene.events and not signs:
         found = tuple(islice(resting, MOST))
         return found, len(found) if len(found) < MOST else math.prod(map(len, parts)), 0
     everywhere = tuple(resting)
@@ -153,14 +197,21 @@ def _combined(system: System, parts: list[list[Equilibrium]]) -> tuple[tuple[Equ
     return held[:MOST], len(held), len(everywhere) - len(held)
 
 
+def has_signs(system: System, equilibrium: Equilibrium, signs: Signs) -> bool:
+    """Whether the switching functions have these signs there; one that is zero has none."""
+    with ctx.workprec(BITS):
+        point = point_at(system, equilibrium)
+        return all(bool(number(beside(system, s, signs) * sign, dict(point)) > NOTHING) for s, sign in signs.items())
+
+
 def is_within(system: System, point: Mapping[str, arb]) -> bool:
     """Whether the scene holds at rest there: no event's value is negative. One that changes with time is not asked."""
     with ctx.workprec(BITS):
-        return not any(bool(number(value, dict(point)) < -NOTHING) for value in _watched(system))
+        return not any(bool(number(value, dict(point)) < -NOTHING) for value in watched(system))
 
 
 @cached_method
-def _watched(system: System) -> tuple[sp.Expr, ...]:
+def watched(system: System) -> tuple[sp.Expr, ...]:
     """The values of the events at rest."""
     at_rest = {system.rate(q): system.zero for q in system.free}
     values = (system.guided(system.expression(event.value.tree)).xreplace(at_rest) for event in system.scene.events)
@@ -193,10 +244,10 @@ def free_coordinates(system: System) -> tuple[str, ...]:
     return tuple(q for q in system.free if not forces.has(system.q(q)))
 
 
-def _parts(system: System) -> Iterator[_Part]:
+def _parts(system: System, forces: sp.ImmutableMatrix) -> Iterator[_Part]:
     """The equations grouped so that groups share no unknown; one without unknowns stands alone, if it does not hold."""
-    groups: list[tuple[list[sp.Expr], set[str]]] = []
-    for force in forces_at_rest(system):
+    groups: list[tuple[list[tuple[sp.Expr, sp.Expr]], set[str]]] = []
+    for force, stated in zip(forces, forces_at_rest(system), strict=True):
         if system.is_zero(force):
             continue
         names = {q for q in system.free if force.has(system.q(q))}
@@ -205,9 +256,10 @@ def _parts(system: System) -> Iterator[_Part]:
         touching = [group for group in groups if group[1] & names]
         merged = [e for group in touching for e in group[0]], set().union(*(group[1] for group in touching))
         groups = [group for group in groups if group not in touching]
-        groups.append(([*merged[0], force], merged[1] | names))
-    for equations, names in groups:
-        yield _Part(tuple(equations), tuple(c for c in system.scene.free if c.name in names))
+        groups.append(([*merged[0], (force, stated)], merged[1] | names))
+    for pairs, names in groups:
+        equations, stated = zip(*pairs, strict=True)
+        yield _Part(equations, tuple(c for c in system.scene.free if c.name in names), stated)
 
 
 def _solved(system: System, part: _Part, budget: Budget) -> Solutions:
@@ -232,10 +284,15 @@ def _recognized(system: System, part: _Part, solution: Solution) -> Equilibrium 
     angles = frozenset(q for q in sought if is_angle(system, q))
     if sought:
         values: Known | None = closed_form(Sought(system, part.equations, sought, angles, known))
-        if values is not None and _holds_beside(values, held):
+        if values is not None and _holds_beside(values, held) and _holds_as_stated(system, part, values):
             return Equilibrium(values, exact=True, free=free)
     rounded = refined([e.xreplace(held) for e in solution.equations], sought) if sought else {}
     return None if rounded is None else Equilibrium({**held, **rounded}, exact=False, free=free)
+
+
+def _holds_as_stated(system: System, part: _Part, values: Known) -> bool:
+    """Whether the forces vanish for all parameters: on the one side of a jump they are others than beyond it."""
+    return part.equations == part.stated or all(system.is_zero(force.xreplace(values)) for force in part.stated)
 
 
 def _holds_beside(known: Known, held: Mapping[sp.Symbol, sp.Expr]) -> bool:

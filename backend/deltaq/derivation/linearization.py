@@ -19,10 +19,11 @@ from .bound_equilibria import searched
 from .calculus import column
 from .equilibria import Equilibrium, start_point
 from .evaluation import components
-from .friction import Band, band
+from .friction import Band
 from .matrix_form import forces_at_rest, forcing, mass_matrix
 from .program import number
 from .refinement import rational
+from .rest_sets import band_of, range_about
 from .spectrum import Spectrum, spectrum
 from .stability import Verdict, growth, verdict
 from .system import System
@@ -162,14 +163,14 @@ def _about(system: System, equilibrium: Equilibrium) -> Linearization:
         mass, damping, stiffness = numbers = [list(components(matrix, point)) for matrix in raw]
         smooth = all(part.is_finite() for values in numbers for part in values)
         found = spectrum(mass, damping, stiffness, len(system.free)) if smooth else None
-        held = band(system, equilibrium)
+        held = range_about(system, equilibrium)
         judged = Verdict("stable", kind="band") if held else verdict(system, equilibrium, point, numbers, found)
         if equilibrium.exact:
             there = (matrix.xreplace(dict(equilibrium.values)) for matrix in raw)
             matrices = [system.display(_beside_jumps(matrix) if smooth else matrix) for matrix in there]
         else:
             matrices = [_rational(values, len(system.free)) for values in numbers]
-    return Linearization(equilibrium, matrices[0], matrices[1], matrices[2], found, judged, smooth, held)
+    return Linearization(equilibrium, matrices[0], matrices[1], matrices[2], found, judged, smooth, band_of(held))
 
 
 def _beside_jumps(matrix: sp.ImmutableMatrix) -> sp.ImmutableMatrix:

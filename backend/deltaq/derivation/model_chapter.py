@@ -15,7 +15,17 @@ from .formula import Named, Quantity
 from .hamiltonian import hamiltonian as hamiltonian_of
 from .linearization import Linearization
 from .matrix_form import is_autonomous
-from .optional import contact_search_of, motions_of, reduction_of, search_of, steady_motions_of, symmetries_of
+from .optional import (
+    contact_search_of,
+    kink_search_of,
+    left_out_of,
+    motions_of,
+    reduction_of,
+    search_of,
+    steady_motions_of,
+    symmetries_of,
+)
+from .rest_sets import RestSearch, band_of
 from .rules import (
     canonical_equations,
     contact_equilibrium,
@@ -28,12 +38,14 @@ from .rules import (
     friction_band,
     hamiltonian,
     jacobi_energy,
+    kink_equilibrium,
     left_out,
     linearization,
     matrix_form,
     noether,
     poisson_bracket,
     relative_equilibrium,
+    rest_range,
     routh_function,
     stability_condition,
     symmetry_search,
@@ -71,8 +83,15 @@ def _equilibria(system: System) -> Iterator[Step]:
     steps = [contact_equilibrium.apply(system, each, k) for k, each in enumerate(resting.found if resting else (), 1)]
     yield from steps[:MOST_SHOWN]
     others += steps[MOST_SHOWN:]
-    if known and (others or known.ranges or not known.complete):
-        yield equilibrium_search.apply(system, known, resting, min(len(found), MOST_SHOWN), tuple(others))
+    kinked = kink_search_of(system) or RestSearch()
+    steps = [kink_equilibrium.apply(system, each, k) for k, each in enumerate(kinked.kinks, 1)]
+    yield from steps[:MOST_SHOWN]
+    others += steps[MOST_SHOWN:]
+    told = {linear.band for linear in found}
+    ranges = [each for each in kinked.found if (each.low or each.high) and band_of(each) not in told - {None}]
+    yield from (rest_range.apply(system, each, k) for k, each in enumerate(ranges, 1))
+    if known and (others or known.ranges or not known.complete or left_out_of(system)):
+        yield equilibrium_search.apply(system, known, min(len(found), MOST_SHOWN), tuple(others))
 
 
 def _conditions(system: System, linear: Linearization, number: int) -> Iterator[Step]:

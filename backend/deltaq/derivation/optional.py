@@ -6,13 +6,16 @@ parts that have no law for scenes with constraints: symmetries that keep them, e
 
 from __future__ import annotations
 
-from ..vocabulary import OptionalPart
+from ..vocabulary import OptionalPart, SearchEnd
 from .bound_equilibria import is_sought, searched
 from .conservation import Reduction, reduction
 from .contact_equilibria import ContactSearch, contact_search
 from .equilibria import Search
 from .generator import Symmetry
+from .impacts import bouncing, frictions
+from .kink_equilibria import kink_search
 from .linearization import Linearization, linearizations
+from .rest_sets import RestSearch
 from .steady import SteadyMotion, steady_motions
 from .symmetry import is_searched, symmetries
 from .system import System
@@ -32,6 +35,22 @@ def search_of(system: System) -> Search | None:
 def contact_search_of(system: System) -> ContactSearch | None:
     """The search for equilibria on closed contacts; None where there are none."""
     return system.effort.afford("contact-equilibria", lambda: contact_search(system), None)
+
+
+def kink_search_of(system: System) -> RestSearch | None:
+    """The search for equilibria at kinks, and for ranges of rest; None where time is in the laws."""
+    return system.effort.afford("kink-equilibria", lambda: kink_search(system), None)
+
+
+def left_out_of(system: System) -> SearchEnd | None:
+    """Why not all positions of rest were found; None where they were, or where nothing was sought."""
+    known, resting, kinked = search_of(system), contact_search_of(system), kink_search_of(system)
+    if known is None or known.left_out in {"budget", "continuum", "singular"}:
+        return known.left_out if known else None
+    if kinked is None or not kinked.complete:
+        return "friction" if frictions(system) else "kinks"
+    is_all = not bouncing(system) or (resting is not None and resting.complete)
+    return None if is_all else "contacts"
 
 
 def motions_of(system: System) -> tuple[Linearization, ...]:

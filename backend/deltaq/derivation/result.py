@@ -11,7 +11,7 @@ import sympy as sp
 from ..language.derivatives import diff
 from ..language.memory import cached_method
 from ..mechanics.scene import Scene
-from ..vocabulary import CurlOutcome, GeneratorFamily
+from ..vocabulary import CurlOutcome, GeneratorFamily, SearchEnd
 from . import provenance
 from .conditions import Conditions, conditions
 from .conservation import Reduction, cyclic, is_energy, jacobi_energy, jacobi_energy_rate
@@ -24,8 +24,18 @@ from .impacts import Contact, Sticking, contacts, sticking
 from .linearization import Linearization
 from .matrix_form import forcing, left_side, mass_matrix
 from .multipliers import multipliers
-from .optional import contact_search_of, motions_of, reduction_of, search_of, steady_motions_of, symmetries_of
+from .optional import (
+    contact_search_of,
+    kink_search_of,
+    left_out_of,
+    motions_of,
+    reduction_of,
+    search_of,
+    steady_motions_of,
+    symmetries_of,
+)
 from .released import Release
+from .rest_sets import RestSearch
 from .rules.curl_test import outcome
 from .space import motions
 from .steady import SteadyMotion
@@ -118,6 +128,8 @@ class Result:
     equilibria: tuple[Told, ...] = ()
     resting: ContactSearch | None = None
     search: Search | None = None
+    kinked: RestSearch | None = None
+    left_out: SearchEnd | None = None
     routh: Reduction | None = None
     steady: tuple[SteadyMotion, ...] = ()
     generators: tuple[GeneratorFamily, ...] = ()
@@ -141,6 +153,8 @@ def completed(system: System, result: Result) -> Result:
         equilibria=tuple(Told(linear, conditions(system, linear)) for linear in motions_of(system)),
         search=search_of(system),
         resting=contact_search_of(system),
+        kinked=kink_search_of(system),
+        left_out=left_out_of(system),
         routh=reduction_of(system),
         steady=steady_motions_of(system),
         generators=_searched(system),

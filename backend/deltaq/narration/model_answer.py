@@ -9,10 +9,10 @@ from flint import arb
 
 from ..derivation.conditions import Comparison, Conditions
 from ..derivation.conservation import Reduction
-from ..derivation.contact_equilibria import ContactEquilibrium, ContactSearch
-from ..derivation.equilibria import Search
+from ..derivation.contact_equilibria import ContactEquilibrium
 from ..derivation.linearization import Linearization
 from ..derivation.program import number
+from ..derivation.rest_sets import KinkRest, RestRange
 from ..derivation.result import LoadPotential, Result, Told
 from ..derivation.spectrum import ComplexMode, Mode
 from ..derivation.steady import SteadyMotion
@@ -100,20 +100,50 @@ def _band(linear: Linearization, point: Mapping[str, arb], write: ExpressionWrit
     return {name: _written(value, point, write, exact=linear.band.exact) for name, value in ends.items()}
 
 
-def search(found: Search | None, resting: ContactSearch | None) -> Document | None:
+def kink_equilibrium(found: KinkRest, scene: Scene, write: ExpressionWriter) -> Document:
+    """A state of rest where forces jump: where, what switches there, and what acts beside it or balances the forces."""
+    place, point = found.equilibrium, _start(scene)
+
+    def told(value: sp.Expr) -> Document:
+        return _written(value, point, write, exact=place.exact)
+
+    return {
+        "values": {q.name: told(value) for q, value in place.values.items()},
+        "switches": [write.written(s) for s in found.switches],
+        "forces": dict(zip(("below", "above"), map(told, found.sides), strict=True)) if found.sides else None,
+        "shares": [told(share) for share in found.shares],
+        "contacts": [event.name for event in found.contacts],
+        "exact": place.exact,
+        "free": list(place.free),
+        "stability": found.stability,
+    }
+
+
+def rest_range(found: RestRange, scene: Scene, write: ExpressionWriter) -> Document:
+    """Between which values the coordinate rests; null where there is no end."""
+    point = _start(scene)
+    ends = {"low": found.low, "high": found.high}
+    told = {
+        name: None if end is None else {**_written(end.value, point, write, exact=end.exact), "at": end.kind}
+        for name, end in ends.items()
+    }
+    return {"coordinate": found.coordinate, **told, "friction": found.by_friction}
+
+
+def search(result: Result) -> Document | None:
     """How many equilibria there are, where they were sought, and whether that is all; none where time is in the laws.
 
     `range` holds the coordinates that were searched between two values, not everywhere.
     """
+    found = result.search
     if found is None:
         return None
-    is_all = found.complete or (found.left_out == "contacts" and resting is not None and resting.complete)
-    ranges = {**(resting.ranges if resting else {}), **found.ranges}
+    several = (each.ranges for each in (result.kinked, result.resting, found) if each is not None)
     return {
-        "complete": is_all,
+        "complete": result.left_out is None,
         "count": found.count,
-        "range": {name: list(map(_float, ends)) for name, ends in ranges.items()},
-        "left_out": None if is_all else found.left_out,
+        "range": {name: list(map(_float, ends)) for each in several for name, ends in each.items()},
+        "left_out": result.left_out,
     }
 
 

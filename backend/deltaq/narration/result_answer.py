@@ -9,18 +9,30 @@ import sympy as sp
 
 from ..derivation.formula import Term
 from ..derivation.generator import Generator
+from ..derivation.rest_sets import RestSearch
 from ..derivation.result import Conserved, Result
 from ..derivation.result_history import Origins
 from ..derivation.step import Origin
 from .constraint_answer import constraint, contact, reaction, releasable, sticking
 from .expression_writer import ExpressionWriter
-from .model_answer import contact_equilibrium, equilibrium, load, own_symbols, routh, search, steady
+from .model_answer import (
+    contact_equilibrium,
+    equilibrium,
+    kink_equilibrium,
+    load,
+    own_symbols,
+    rest_range,
+    routh,
+    search,
+    steady,
+)
 
 Document = dict[str, object]
 
 
 def written(result: Result, origins: Mapping[str, Mapping[str, Origins]], write: ExpressionWriter) -> Document:
     """The `result` of the answer to POST /derivations."""
+    kinked = result.kinked or RestSearch()
     sums, resting = _Sums(result, origins, write), result.resting.found if result.resting else ()
     return {
         "positions": {name: write.vector(value) for name, value in result.positions.items()},
@@ -45,7 +57,9 @@ def written(result: Result, origins: Mapping[str, Mapping[str, Origins]], write:
         "symmetry_search": {"generators": list(result.generators)},
         "equilibria": [equilibrium(each, result.scene, write) for each in result.equilibria],
         "contact_equilibria": [contact_equilibrium(each, result.scene, write) for each in resting],
-        "equilibrium_search": search(result.search, result.resting),
+        "kink_equilibria": [kink_equilibrium(each, result.scene, write) for each in kinked.kinks],
+        "rest_ranges": [rest_range(each, result.scene, write) for each in kinked.found],
+        "equilibrium_search": search(result),
         "jacobi_energy": {**sums.sum("jacobi_energy", result.jacobi_energy), "equals_energy": result.is_energy},
         "loads": [load(each, write) for each in result.loads],
         "symbols": own_symbols(result, write),

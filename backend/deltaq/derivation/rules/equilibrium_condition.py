@@ -12,7 +12,7 @@ from ..equilibria import Search, free_coordinates
 from ..formula import Equation, Explicit, Substituted
 from ..friction import holds_everywhere
 from ..matrix_form import forces_at_rest, forcing
-from ..optional import search_of
+from ..optional import kink_search_of, left_out_of, search_of
 from ..step import Relation, Step
 from ..system import System
 from ._shape import balanced, plain_value, shaped, zero
@@ -47,17 +47,26 @@ def _outcome(system: System) -> str:
     if system.conditions:
         return _outcome_with_constraints(system)
     if not (known and known.found):
-        return "held" if holds_everywhere(system) else _outcome_of_none(system, known)
+        return "held" if holds_everywhere(system) else _outcome_beside(system) or _outcome_of_none(system, known)
     if len(free) == len(system.free):
         return "everywhere" if all(map(system.is_zero, forces_at_rest(system))) else "everywhere-at-values"
     return "free" if free else "text"
+
+
+def _outcome_beside(system: System) -> str:
+    """Where forces vanish nowhere, but friction or a kink balances them; "" where nothing does."""
+    kinked = kink_search_of(system)
+    if kinked and kinked.found and kinked.found[0].by_friction:
+        return "held-in-range"
+    return "balanced-at-kink" if kinked and kinked.kinks else ""
 
 
 def _outcome_of_none(system: System, known: Search | None) -> str:
     """There is none at all, none with open contacts, none where the scene holds; or none was found."""
     forces = [force for force in forces_at_rest(system) if not system.is_zero(force)]
     constant = any(not force.has(*map(system.q, system.free)) for force in forces)
-    if not constant and not (known and _is_everywhere(known)):
+    is_all = known and (_is_everywhere(known) or (left_out_of(system) is None and not known.ranges))
+    if not constant and not is_all:
         return "not-found"
     if known and known.beyond:
         return "none-within"

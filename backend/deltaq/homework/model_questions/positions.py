@@ -20,7 +20,7 @@ from ...derivation.bound_equilibria import smooth_conditions, smooth_matrix
 from ...derivation.equilibria import Equilibrium, is_angle
 from ...derivation.impacts import frictions
 from ...derivation.matrix_form import forces_at_rest
-from ...derivation.optional import motions_of, search_of
+from ...derivation.optional import kink_search_of, motions_of, search_of
 from ...derivation.system import System
 from ...language.latex_printer import Typography, latex
 from ...language.memory import cached_method
@@ -66,13 +66,19 @@ def asked(solution: Solution) -> tuple[Equilibrium, ...]:
     search = search_of(model)
     if search is None or not search.is_complete_off_contacts or not 0 < search.count == len(search.found) <= MOST:
         return ()
-    if any(linear.band is not None for linear in motions_of(model)) or (model.conditions and frictions(model)):
+    if frictions(model) or any(linear.band is not None for linear in motions_of(model)) or _is_ranged(model):
         return ()  # dry friction holds it beside them, too
     moving = set(map(model.q, model.free))
     told = {frozenset(each.values) for each in search.found}
     alone = len(told) == 1 and all(set(each.values) | set(map(model.q, each.free)) == moving for each in search.found)
     apart = not any(value.free_symbols & moving for each in search.found for value in each.values.values())
     return search.found if alone and apart and search.found[0].values else ()
+
+
+def _is_ranged(model: System) -> bool:
+    """Whether it rests in whole ranges, or where forces jump over balance."""
+    known = kink_search_of(model)
+    return known is not None and bool(known.found or known.kinks)
 
 
 @dataclass(frozen=True)
