@@ -27,6 +27,7 @@ ROUNDING = 1e-15
 HARDLY = 1e-13  # of a rate of slipping
 SLACK = 1e-12  # relative, of a friction that holds
 NOTHING = 1e-12  # of what an impulse would do without constraints: they take all of it
+ALONG = 1e-9  # of a row: what is left of it besides the rows of contacts
 MOST_IMPACTS = 1000  # one after the other at one time
 
 
@@ -300,7 +301,11 @@ def _resolved(current: ModeState, closed: frozenset[int], released: int | None) 
         if held[row] and facts.w[row] != 0.0:
             current = current.pushed(row, -float(facts.w[row]))
             facts = current.facts
+    sticking = list(held[:frictions])
     for _ in range(2 * modes.rows + 2):
+        across = _held_by_contacts(facts, held, sticking)
+        held[:frictions] = [sticks and not across[k] for k, sticks in enumerate(sticking)]
+        slips = [across[k] or slip for k, slip in enumerate(slips)]
         flags = tuple(float(h) for h in held)
         trial = replace(current, mode=replace(current.mode, flags=flags, slips=tuple(slips)))
         lost = _lost(trial, held)
@@ -308,8 +313,27 @@ def _resolved(current: ModeState, closed: frozenset[int], released: int | None) 
             break
         held[lost] = False
         if lost < frictions:
+            sticking[lost] = False
             slips[lost] = -float(np.sign(trial.facts.reactions[lost]))
     return _offset(replace(current, mode=replace(current.mode, flags=tuple(map(float, held)), slips=tuple(slips))))
+
+
+def _held_by_contacts(facts: Facts, held: list[bool], sticking: list[bool]) -> list[float]:
+    """Of each friction 0, or which way it slips as contacts open that hold all that it would hold.
+
+    A slide at its stop is held by both, and what each takes is not determined. The contact takes it, with the friction
+    that an opening would meet: it holds up to where that does no longer.
+    """
+    closed = [row for row in range(len(sticking), len(held)) if held[row]]
+    found = [0.0] * len(sticking)
+    for k, sticks in enumerate(sticking):
+        if sticks and closed:
+            rows = facts.a[closed].T
+            shares = np.linalg.lstsq(rows, facts.a[k], rcond=None)[0]
+            left = float(np.linalg.norm(facts.a[k] - rows @ shares))
+            if left <= ALONG * float(np.linalg.norm(facts.a[k])):
+                found[k] = 1.0 if shares.sum() >= 0.0 else -1.0
+    return found
 
 
 def _lost(current: ModeState, held: list[bool]) -> int | None:
