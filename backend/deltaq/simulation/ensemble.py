@@ -281,16 +281,11 @@ def _judged(ensemble: Ensemble, runs: Members, told: Floats, tolerance: float) -
         lost = ((known >= LOST * scale) & (scale > 0.0)).any(axis=2)
     worst = np.where(codes == FINE, worst, np.nan)
     horizons = np.where(lost.any(axis=1), runs.times[lost.argmax(axis=1)], np.inf)
-    outcomes = tuple(
-        _outcome(problem, int(code), float(end), float(horizon), float(bad), tolerance)
-        for code, end, horizon, bad in zip(
-            codes,
-            runs.times[np.maximum(runs.filled - 1, 0)],
-            horizons,
-            worst,
-            strict=True,
-        )
-    )
+    excess = np.where(worst > tolerance, worst, 0.0)
+    ends = runs.times[np.maximum(runs.filled - 1, 0)]
+    told_apart = list(zip(codes.tolist(), ends.tolist(), horizons.tolist(), excess.tolist(), strict=True))
+    of_kinds = {kind: _outcome(problem, *kind, tolerance) for kind in set(told_apart)}  # most are the same
+    outcomes = tuple(of_kinds[kind] for kind in told_apart)
     return EnsembleMotion(runs.times, values, rates, errors, worst, runs.steps, outcomes)
 
 

@@ -204,7 +204,7 @@ def watch_of(problem: Problem, flag: Flag, scheme: Scheme | None = None) -> Watc
     """What may end a run of a problem by a scheme, for kernels: the flag, shape (1,), events, and friction."""
     function = problem.model.events
     if function is None and problem.model.switches is None:
-        return _nothing_watched()._replace(cancelled=flag)
+        return Watch(flag, *_nothing_watched()[1:])
     switch = _switch_of(problem)
     if function is None:
         return unwatched(flag, switch)

@@ -143,15 +143,14 @@ def run(problem: Problem, method: Method, times: Floats, cancelled: Flag, steps:
 def _limited(problem: Problem, method: Method, times: Floats, cancelled: Flag, steps: Steps) -> Run:
     """A run of a part of the steps; OUT_OF_REACH if all that are allowed would bring it nowhere (`reach`)."""
     part, span = problem.step_limit // PART, float(times[-1] - times[0])
-
-    def once(most: int) -> Run:
-        return _run(problem, method, times, cancelled, steps, most, is_long=True)
-
-    found = once(part)
-    gone = float(found.result.reached - times[0])
-    if found.result.outcome != STEP_LIMIT or not is_far(gone, span):
+    found = _run(problem, method, times, cancelled, steps, part, is_long=True)
+    if found.result.outcome != STEP_LIMIT:
         return found
-    is_lost = is_steady(gone, float(once(part // 2).result.reached - times[0]))
+    gone = float(found.result.reached - times[0])
+    if not is_far(gone, span):
+        return found
+    half = _run(problem, method, times, cancelled, steps, part // 2, is_long=True)
+    is_lost = is_steady(gone, float(half.result.reached - times[0]))
     return replace(found, result=found.result._replace(outcome=OUT_OF_REACH)) if is_lost else found
 
 

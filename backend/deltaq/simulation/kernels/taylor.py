@@ -133,7 +133,7 @@ class Choice(NamedTuple):
     is_cut: bool
 
 
-@subroutine
+@inline
 def expand(series: Series, row: int, t: float, motion: Motion, near: float, gone: float) -> int:
     """The coefficients at the new state, in a power of two not far from `near` as the unit of time.
 

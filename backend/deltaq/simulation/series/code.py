@@ -122,6 +122,12 @@ class Code:
             found = self.multiply_add(found, x, self.number(each))
         return found
 
+    def in_halves(self, coefficients: Sequence[float], x: str) -> str:
+        """Σ cₖ xᵏ, even and odd powers by themselves, so that half as many operations wait for each other."""
+        square = self.multiply(x, x)
+        even, odd = (self.horner(coefficients[first::2], square) for first in (0, 1))
+        return self.multiply_add(odd, x, even)
+
     def spread(self, number: str) -> str:
         """One double in all lanes."""
         if self.lanes == 1:

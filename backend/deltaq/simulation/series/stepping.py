@@ -30,7 +30,7 @@ TOGETHER = 2  # components in one loop
 BITS = 52  # behind the point of a double
 FAR = 1000.0  # the largest exponent of 2 that is asked for
 OF_LOGARITHM = [2.0 / (2 * k + 1) / log(2.0) for k in range(7)]  # of log₂ m by powers of (m − 1)/(m + 1)
-OF_POWER = [log(2.0) ** k / factorial(k) for k in range(12)]  # of 2^x
+OF_POWER = [log(2.0) ** k / factorial(k) for k in range(11)]  # of 2^x
 SAFETY = 0.7  # Jorba and Zou, §3.2
 
 
@@ -153,7 +153,7 @@ def logarithm(code: Code, x: str) -> str:
         raw, code.select(is_large, code.number(2.0**BITS + 1022.0), code.number(2.0**BITS + 1023.0))
     )
     ratio = code.divide(code.subtract(mantissa, code.number(1.0)), code.add(mantissa, code.number(1.0)))
-    return code.multiply_add(ratio, code.horner(OF_LOGARITHM, code.multiply(ratio, ratio)), exponent)
+    return code.multiply_add(ratio, code.in_halves(OF_LOGARITHM, code.multiply(ratio, ratio)), exponent)
 
 
 def power_of_two(code: Code, x: str) -> str:
@@ -162,4 +162,4 @@ def power_of_two(code: Code, x: str) -> str:
     shifted = code.add(x, code.number(1.5 * 2.0**BITS))
     rest = code.subtract(x, code.subtract(shifted, code.number(1.5 * 2.0**BITS)))
     scale = code.of_bits(code.on_bits("shl", code.on_bits("add", code.bits(shifted), 1023), BITS))
-    return code.multiply(scale, code.horner(OF_POWER, rest))
+    return code.multiply(scale, code.in_halves(OF_POWER, rest))
