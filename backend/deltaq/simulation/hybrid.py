@@ -6,6 +6,7 @@ no step runs over a kink. Rebounds that pile up end in rest. What an impact take
 
 from __future__ import annotations
 
+from collections import deque
 from dataclasses import dataclass, field, replace
 
 import numpy as np
@@ -25,6 +26,7 @@ from .transitions import ModeState, NoDirectionError, Transition, UnsettledError
 
 MOST = 5000  # events in one run
 AT_ONCE = 50  # events at the same time, by rounding
+CROWD, CROWDED = 400, 1e-4  # so many switches in such a part of the span: the state slides along a kink
 NEAR = 1e-5  # s, of differences
 SAME = 1e-13  # of the time
 
@@ -46,6 +48,11 @@ class _Record:
     transitions: list[Transition] = field(default_factory=list)
     last: float = 0.0
     at_once: int = 0
+    switched: deque[float] = field(default_factory=lambda: deque(maxlen=CROWD))
+
+    def is_crowded(self, span: float) -> bool:
+        """Whether forces switch to and fro without the motion going on."""
+        return len(self.switched) == CROWD and self.switched[-1] - self.switched[0] <= CROWDED * span
 
     def moved(self, event: Event, time: float, degrees: int) -> Floats:
         """The state of an event carried over to a time close to it by its rates, shape (width,); all work is in it."""
@@ -105,7 +112,7 @@ def run_on(problem: Problem, modes: Modes, method: Method, times: Floats, cancel
             return _whole(record, times, UNSETTLED, event.time, found)
         except NoDirectionError:
             return _whole(record, times, NO_DIRECTION, event.time, found)
-        if len(record.transitions) >= MOST or record.at_once >= AT_ONCE:
+        if len(record.transitions) >= MOST or record.at_once >= AT_ONCE or record.is_crowded(float(times[-1])):
             return _whole(record, times, MANY_EVENTS, event.time, found)
         if current.time >= times[-1]:
             return _whole(record, times, FINE, float(times[-1]), found)
@@ -157,7 +164,9 @@ def _next(current: ModeState, event: Event, record: _Record) -> ModeState:
     is_same = event.time - record.last <= SAME * max(1.0, event.time)
     record.at_once = record.at_once + 1 if is_same else 0
     record.last = event.time
-    if kind != "switch":
+    if kind == "switch":
+        record.switched.append(event.time)
+    else:
         left = np.array([*after.q, *after.v, record.work][: event.state.size])
         record.transitions.append(Transition(name, after.time, kind, reached, left, loss))
     return after

@@ -27,6 +27,7 @@ ROUNDING = 1e-15
 HARDLY = 1e-13  # of a rate of slipping
 SLACK = 1e-12  # relative, of a friction that holds
 NOTHING = 1e-12  # of what an impulse would do without constraints: they take all of it
+NUDGE = 1e-6  # of the coordinates: for slopes by differences, which are right to about as much
 ALONG = 1e-9  # of a row: what is left of it besides the rows of contacts
 MOST_IMPACTS = 1000  # one after the other at one time
 
@@ -198,6 +199,9 @@ def passed(current: ModeState, watched: int) -> tuple[ModeState, str, str]:
     modes, ending, mode = current.modes, len(current.modes.ending), current.mode
     place = watched - ending
     if place < modes.kinks:
+        contact = _contact_before(current, place)
+        if contact is not None and not mode.flags[len(modes.frictions) + contact]:
+            return _met(current, contact)
         kinks = tuple(-sign if k == place else sign for k, sign in enumerate(mode.kinks))
         return _resolved(replace(current, mode=replace(mode, kinks=kinks)), frozenset(), None), "", "switch"
     place -= modes.kinks
@@ -214,12 +218,36 @@ def passed(current: ModeState, watched: int) -> tuple[ModeState, str, str]:
         found = _resolved(stopped, frozenset(), None)
         return found, modes.frictions[k], "stick" if found.mode.flags[k] else "turn"
     j = place - 2 * frictions
-    name = modes.scene.events[modes.contacts[j]].name
     if mode.flags[frictions + j]:
-        return _resolved(current, frozenset(), frictions + j), name, "release"
-    closed = _closed(current, j)
-    found = _resolved(_after_impacts(closed, j), frozenset({j}), None)
-    return found, name, "rest" if found.mode.flags[frictions + j] else "impact"
+        return _resolved(current, frozenset(), frictions + j), _name(modes, j), "release"
+    return _met(current, j)
+
+
+def _met(current: ModeState, contact: int) -> tuple[ModeState, str, str]:
+    """The state behind a contact that has closed, its name, and whether it rests."""
+    closed = _closed(current, contact)
+    found = _resolved(_after_impacts(closed, contact), frozenset({contact}), None)
+    rests = found.mode.flags[len(current.modes.frictions) + contact]
+    return found, _name(current.modes, contact), "rest" if rests else "impact"
+
+
+def _name(modes: Modes, contact: int) -> str:
+    return modes.scene.events[modes.contacts[contact]].name
+
+
+def _contact_before(current: ModeState, kink: int) -> int | None:
+    """The contact behind which the other side of a kink lies, where it touches: by rounding the kink is met first."""
+    facts, step = current.facts, NUDGE * _size(current.q)
+    beside = [replace(current, q=current.q + step * each) for each in np.eye(len(current.q))]
+    slope = np.array([each.facts.kinks[kink] - facts.kinks[kink] for each in beside])
+    for j, gap in enumerate(facts.gaps):
+        row = facts.a[len(current.modes.frictions) + j]
+        if row.any() and gap <= TOUCHING * _size(current.q):
+            share = float(slope @ row) / float(row @ row)
+            left = float(np.linalg.norm(slope - share * row))
+            if share * current.mode.kinks[kink] > 0.0 and left <= NUDGE * float(np.linalg.norm(slope)):
+                return j
+    return None
 
 
 def _closed(current: ModeState, contact: int) -> ModeState:

@@ -1,0 +1,47 @@
+"""A kink of a potential at the very place of a wall: the other side of it is never met."""
+
+from __future__ import annotations
+
+import math
+
+import pytest
+from tests.derivation.kinked_scenes import document, friction, potential, wall
+
+from deltaq.simulation.service import run
+
+
+@pytest.mark.parametrize(
+    ("energy", "gap"),
+    [
+        pytest.param("k*abs(x)", "x", id="the same function"),
+        pytest.param("k*abs(x)", "3*x", id="a multiple of it"),
+        pytest.param("k*max(x, -2*x)", "x", id="two slopes"),
+        pytest.param("k*max(x, 0)", "x", id="flat behind the wall"),
+        pytest.param("-k*min(-x, x)", "x", id="the smaller of two"),
+    ],
+)
+@pytest.mark.parametrize("loads", [(), (friction("c"),)], ids=["free", "with friction"])
+def test_rebounds_pile_up_at_a_kink_as_at_any_wall(energy: str, gap: str, loads: tuple[dict[str, object], ...]) -> None:
+    """As V = kx with e = 1/2; without friction impacts end at √(2h/a) (1 + e)/(1 − e)."""
+    asked = {"initial": {"x": {"value": 0.3, "rate": 0.0}}, "t_end": 3.0, "samples": 31, "tolerance": 1e-9}
+    values = {"k": 2.0, "c": 0.5}
+    kinked = run({"scene": document([potential(energy), *loads], values, [wall(gap)]), **asked})
+    smooth = run({"scene": document([potential("k*x"), *loads], values, [wall("x")]), **asked})
+    assert kinked["status"] == "ok"
+    x, same = (dict(zip(each["t"], each["coordinates"]["x"], strict=True)) for each in (kinked, smooth))  # type: ignore[index, call-overload]
+    shared = [t for t in x if t in same]
+    assert len(shared) >= 31
+    assert [x[t] for t in shared] == pytest.approx([same[t] for t in shared], abs=1e-8)
+    assert x[3.0] == pytest.approx(0.0, abs=1e-11)  # what a gap may be of a contact that counts as closed
+    if not loads:
+        last = max(event["time"] for event in kinked["events"])  # type: ignore[attr-defined]
+        assert last == pytest.approx(3.0 * math.sqrt(0.3), abs=1e-6)
+
+
+def test_forces_that_switch_to_and_fro_end_a_motion_soon_and_it_is_said() -> None:
+    """At rest in the kink of k|x| a motion does not go on: the state slides along it."""
+    answer = run(
+        {"scene": document([potential("k*abs(x)")], {"k": 2.0}), "initial": {"x": {"value": 0.0}}, "t_end": 2.0}
+    )
+    assert answer["status"] in {"ok", "step_limit"}
+    assert max(map(abs, answer["coordinates"]["x"])) < 1e-9  # type: ignore[index]
