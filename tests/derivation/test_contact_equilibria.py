@@ -194,11 +194,6 @@ def test_a_ball_with_drag_comes_to_rest_where_it_is_said() -> None:
     ("scene", "complete"),
     [
         pytest.param(load_scene("bouncing-ball"), True, id="a table that moves is no place to rest"),
-        pytest.param(
-            with_events("bouncing-ball", gap("z - a*sin(omega*t)"), a=0.0),
-            False,
-            id="one that rests at these values only",
-        ),
         pytest.param(plane(gap("y"), loads=(WEIGHT, DRY)), False, id="dry friction makes families"),
     ],
 )
@@ -206,6 +201,23 @@ def test_what_is_not_found_is_not_denied(scene: Scene, complete: bool) -> None:
     search = contact_search(System(scene))
     assert search is not None
     assert (search.found, search.complete) == ((), complete)
+
+
+@pytest.mark.parametrize(
+    ("value", "place"), [("z - a*sin(omega*t)", "0"), ("z - 1/2 - a*sin(omega*t)^2*cos(omega*t)", "1/2")]
+)
+def test_a_table_whose_amplitude_is_zero_carries_a_ball_and_it_is_said_that_it_may_move(value: str, place: str) -> None:
+    scene = with_events("bouncing-ball", gap(value), a=0.0)
+    system = System(scene)
+    search = contact_search(system)
+    assert search is not None
+    assert rows(system, search) == [({"z": place}, ON, ["g*m"], "stable")]
+    assert (search.complete, search.found[0].is_only_here) == (True, True)
+    steps = [step for step in derive(scene)[1].steps() if step.rule == "contact-equilibrium"]
+    assert [(step.about["outcome"], step.verified) for step in steps] == [("stable-at-values", True)]
+    moving = contact_search(System(with_events("bouncing-ball", gap(value), a=0.1)))
+    assert moving is not None
+    assert (moving.found, moving.complete) == ((), True)
 
 
 def test_a_search_that_is_too_long_is_left_out_and_named() -> None:

@@ -20,6 +20,7 @@ import sympy as sp
 from flint import arb, ctx
 
 from ..language.memory import cached_method
+from ..language.rewriting import ZERO, Exchange, exchanged
 from ..mechanics.closure import closed
 from ..mechanics.event import Event
 from ..vocabulary import OptionalPart, Stability
@@ -58,13 +59,14 @@ class ContactEquilibrium:
     """A position at rest on `contacts`, and the `reactions` λ_N of these, in their order.
 
     `free` are coordinates that may have any value near it, as in `equilibrium`, whose `reactions` are those of the
-    scene's own constraints.
+    scene's own constraints. `is_only_here` says that contacts move at other values of the parameters.
     """
 
     contacts: tuple[Event, ...]
     equilibrium: Equilibrium
     reactions: tuple[sp.Expr, ...]
     stability: Stability
+    is_only_here: bool = False
 
 
 @dataclass(frozen=True)
@@ -92,7 +94,7 @@ def contact_search(system: System) -> ContactSearch | None:
         return NOT_SOUGHT
     still = tuple(event for event in bouncing(system) if not moves(system, event))
     if any(gap(system, event).has(system.t) for event in still):
-        return NOT_SOUGHT  # at other values of the parameters it moves
+        return _at_these_values(system, still)
     degrees = len(system.free) - len(system.conditions)
     every = (each for size in range(1, degrees + 1) for each in combinations(still, size))
     choices = tuple(islice(every, MOST + 1))
@@ -104,6 +106,21 @@ def contact_search(system: System) -> ContactSearch | None:
     complete = len(choices) <= MOST and all(search.complete for search in searches) and not _jumps_there(system)
     ranges = {q: ends for search in searches for q, ends in search.ranges.items()}
     return ContactSearch(tuple(sorted(found, key=lambda each: ORDER.index(each.stability))), complete, ranges)
+
+
+def _at_these_values(system: System, still: tuple[Event, ...]) -> ContactSearch | None:
+    """The search where contacts rest because an amplitude is zero: with the zeros put into their gaps."""
+    zeros = Exchange(trees={each.name: ZERO for each in system.scene.parameters if each.value == 0})
+    known = {event.name: event for event in system.scene.events}
+    held = {event.name: replace(event, value=exchanged(event.value, zeros)) for event in still}
+    resting = System(replace(system.scene, events=tuple(held.get(name, event) for name, event in known.items())))
+    if any(gap(resting, event).has(resting.t) for event in bouncing(resting) if event.name in held):
+        return NOT_SOUGHT
+    found = contact_search(resting)
+    if found is None:
+        return None
+    told = (replace(one, contacts=tuple(known[each.name] for each in one.contacts)) for one in found.found)
+    return replace(found, found=tuple(replace(one, is_only_here=True) for one in told))
 
 
 def _jumps_there(system: System) -> bool:

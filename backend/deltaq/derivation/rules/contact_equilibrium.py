@@ -12,7 +12,6 @@ import sympy as sp
 
 from ...mechanics.event import Event
 from ..contact_equilibria import ContactEquilibrium
-from ..equilibria import Equilibrium
 from ..formula import AtEquilibrium, Explicit, Formula, Inserted, Named, Plus, Quantity, Stack, Term, Times
 from ..impacts import bouncing, slopes
 from ..matrix_form import forces_at_rest
@@ -31,10 +30,10 @@ def apply(system: System, found: ContactEquilibrium, number: int) -> Step:
     there = {**known.values, **known.reactions, **{system.rate(q): system.zero for q in system.free}}
     lines = (
         *(place(system, known, q) for q in system.free if system.q(q) in known.values),
-        *(Relation((_at(system, known, named_gap(system, each), there), zero(1))) for each in found.contacts),
+        *(Relation((_at(system, found, named_gap(system, each), there), zero(1))) for each in found.contacts),
         *(multiplier(symbol, known) for symbol in known.reactions),
         *_reactions(system, found),
-        Relation((_at(system, known, _balance(system, found), there), zero(len(system.free)))),
+        Relation((_at(system, found, _balance(system, found), there), zero(len(system.free)))),
     )
     about = {"outcome": _outcome(found), "number": str(number), "coordinate": ", ".join(known.free)}
     premises = tuple(f"{GAP}:{event.name}" for event in found.contacts)
@@ -43,12 +42,14 @@ def apply(system: System, found: ContactEquilibrium, number: int) -> Step:
 
 def _outcome(found: ContactEquilibrium) -> str:
     is_family = found.stability == "stable" and bool(found.equilibrium.free)
-    return "stable-in-the-others" if is_family else found.stability
+    outcome = "stable-in-the-others" if is_family else found.stability
+    return f"{outcome}-at-values" if found.is_only_here else outcome
 
 
-def _at(system: System, known: Equilibrium, law: Formula, there: dict[sp.Symbol, sp.Expr]) -> Formula:
+def _at(system: System, found: ContactEquilibrium, law: Formula, there: dict[sp.Symbol, sp.Expr]) -> Formula:
     at_rest = AtEquilibrium(law, there)
-    return at_rest if known.exact else Inserted(at_rest, numbers(system))
+    for_all = found.equilibrium.exact and not found.is_only_here
+    return at_rest if for_all else Inserted(at_rest, numbers(system))
 
 
 def _reactions(system: System, found: ContactEquilibrium) -> Iterator[Relation]:
