@@ -168,7 +168,7 @@ def integrate_implicit(
             time_compensation, before_h, is_old, wanted = 0.0, 0.0, True, first_step_of_piece(control, piece)
             evaluations += begin_step(phase, control, t, workspace)
         h, ends_piece = fit_step(plan, piece, t, wanted)
-        predict(weights, h / before_h if before_h > 0.0 else 0.0, v, workspace.stages)
+        predict(weights, h / before_h if before_h > 0.0 else 0.0, 0 if is_adaptive else 1, v, workspace.stages)
         if is_old:
             evaluations += differentiate(phase, weights, t, h, workspace)
             assembled_h, is_old, is_fresh = 0.0, False, True

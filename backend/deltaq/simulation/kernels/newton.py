@@ -142,9 +142,10 @@ def newton(
     """Iterates until corrections are rounding errors, or (tolerance > 0) change positions by less than that.
 
     `now` = (t, h, tolerance). Where kicks keep constraints, each correction brings the new positions onto them as well.
-    The last correction changes what ṗ adds to the momenta, too, unless that is below their rounding.
+    The last correction changes what ṗ adds to the momenta, too, unless that is below their rounding, or tolerated.
 
-    Returns the outcome, the number of iterations and the ratio of the first two corrections, 0 if there were no more.
+    Returns the outcome, the number of iterations and the ratio of the first two corrections, 0 if there were no more
+    and the second may be a rounding error.
     """
     t, h, tolerance = now
     before, ratio, slowness = np.inf, 0.0, 0.0
@@ -164,9 +165,9 @@ def newton(
         is_done = is_done or (ratio > 0.3 and correction <= 1e-11 * speed + 64.0 * floor)  # rounding errors
         is_done = is_done or (iteration > 1 and correction <= floor and kicks.right.size > 0)  # g is not known better
         if is_done or (iteration > 1 and left * max(1.0, h) <= tolerance):
-            if stages.influence[0] * correction > 0.1 * ROUNDING * speed:
+            if is_done and stages.influence[0] * correction > 0.1 * ROUNDING * speed:
                 follow(weights, h, stages)
-            return FINE, iteration, slowness if iteration > 2 else 0.0
+            return FINE, iteration, slowness if iteration > 2 or not is_done else 0.0
         if iteration > 3 and ratio >= 1.0:
             return NEWTON_FAILED, iteration, ratio
         before = correction

@@ -112,14 +112,15 @@ def carry_on(weights: ImplicitWeights, ratio: float, v: Floats, stages: Stages) 
 
 
 @inline
-def predict(weights: ImplicitWeights, ratio: float, v: Floats, stages: Stages) -> None:
+def predict(weights: ImplicitWeights, ratio: float, is_fixed: int, v: Floats, stages: Stages) -> None:
     """First guesses of V: the polynomial of the last step carried on, and by how much that was off before.
 
-    That is known of steps of the same size, and carried on itself by a straight line where it changes little. `v`,
-    shape (n,), are the rates at the start. `ratio` is this step over the last one; 0 means that there was none.
+    That is known where steps are fixed (1), and carried on itself by a straight line where it changes little; a
+    tolerance is met by two corrections anyway. `v`, shape (n,), are the rates at the start. `ratio` is this step over
+    the last one; 0 means that there was none.
     """
     count, n = stages.q.shape
-    known = min(stages.remembered[0] + 1, 2) if ratio == 1.0 else -1
+    known = min(stages.remembered[0] + 1, 2) if ratio == 1.0 and is_fixed != 0 else -1
     size, change = 0.0, 0.0
     for i in range(count):
         for d in range(n):
