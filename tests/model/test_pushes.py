@@ -31,7 +31,7 @@ def numbers(scene: Scene, source: np.random.Generator, extra: int) -> Floats:
 
 @pytest.mark.parametrize("scene", SCENES.values(), ids=SCENES.keys())
 def test_pushes_solve_their_linear_systems(scene: Scene) -> None:
-    """M Rᵀ = Aᵀ, S = A Rᵀ; A (v + Δv) + b = 0 with Δv − κa along R; Rᵀμ with A Rᵀμ = g, twice."""
+    """M Rᵀ = Aᵀ, S⁻¹ A Rᵀ = 1; A (v + Δv) + b = 0 with Δv − κa along R; Rᵀμ with A Rᵀμ = g, twice."""
     eqs, source = equations(scene), np.random.default_rng(5)
     n, m, inputs = len(eqs.forcing), len(eqs.constraints.gaps), len(eqs.symbols.inputs)
     places, found = Places(n, m), compiled_pushes(eqs)
@@ -49,12 +49,12 @@ def test_pushes_solve_their_linear_systems(scene: Scene) -> None:
         mass += np.tril(mass, -1).T
         a = said[len(said) - m * (n + 2) :][: m * n].reshape(m, n)
         force = said[n * (n + 1) // 2 :][:n]
-        r, rest = told[: m * n].reshape(m, n), told[m * n + places.factors :]
+        r, rest = told[: m * n].reshape(m, n), told[m * n + places.inverse :]
         assert r @ mass == pytest.approx(a, abs=1e-12)
-        lower, inverse = np.eye(m), told[m * n :][m * (m - 1) // 2 : places.factors]
-        lower[np.tril_indices(m, -1)] = told[m * n :][: m * (m - 1) // 2]
-        share = a @ r.T
-        assert lower @ np.diag(1.0 / inverse) @ lower.T == pytest.approx(share, rel=1e-10, abs=1e-10)
+        share, inverse = a @ r.T, np.zeros((m, m))
+        inverse[np.tril_indices(m)] = told[m * n :][: places.inverse]
+        inverse += np.tril(inverse, -1).T
+        assert inverse @ share == pytest.approx(np.eye(m), abs=1e-11 * np.linalg.cond(share))
         free, change, rows = rest[:n], rest[n : 2 * n], rest[2 * n :][: m * n].reshape(m, n)
         assert mass @ free == pytest.approx(force, abs=1e-11)
         assert rows == pytest.approx(a, abs=1e-14)

@@ -17,7 +17,7 @@ from .compiled import THOROUGH, Compiled, compile_expressions
 from .equations import Equations
 from .functions import Expr
 from .kinetic import ZERO, Vector
-from .solved import ONE, Factors, Solved, dot, solved
+from .solved import ONE, Solved, dot, solved
 
 MOST = 3  # constraints; more are left to loops
 Table = tuple[Vector, ...]
@@ -35,8 +35,8 @@ class Places:
     m: int
 
     @property
-    def factors(self) -> int:
-        """How many numbers L and 1/D of S take."""
+    def inverse(self) -> int:
+        """How many numbers S⁻¹ takes."""
         return self.m * (self.m + 1) // 2
 
     @property
@@ -47,14 +47,14 @@ class Places:
     @property
     def size(self) -> int:
         """How many numbers all that is."""
-        return self.told + 2 * self.m * self.n + self.factors + 2 * self.n + 3
+        return self.told + 2 * self.m * self.n + self.inverse + 2 * self.n + 3
 
 
 @dataclass(frozen=True)
 class Pushes:
     """Both as machine code, of the model's inputs and what `Places` has behind them.
 
-    `ends` says R by rows, L below its diagonal and 1/D of S = L D Lᵀ, then a, the change of the rates, A by rows,
+    `ends` says R by rows, the lower triangle of S⁻¹, then a, the change of the rates, A by rows,
     det(A₀Rᵀ) with A₀ from the start of the step, and the smallest pivots of M and of S relative to their diagonals.
     `shifts` says μ + μ′ of two corrections, then Rᵀμ and Rᵀμ′.
     """
@@ -70,17 +70,17 @@ def compiled_pushes(eqs: Equations) -> Pushes | None:
         return None
     n = len(eqs.forcing)
     places = Places(n, m)
-    extra = [se.Symbol(f"pushes {k}") for k in range(places.told + m * n + places.factors)]
+    extra = [se.Symbol(f"pushes {k}") for k in range(places.told + m * n + places.inverse)]
     inputs = [*eqs.symbols.inputs, *extra]
     ends = compile_expressions(inputs, _ends(found, extra[0], _rows(extra[1:], m, n)), THOROUGH)
     known = extra[places.told :]
-    shifts = compile_expressions(inputs, _shifts(eqs, _rows(known, m, n), _factors(known[m * n :], m)), THOROUGH)
+    shifts = compile_expressions(inputs, _shifts(eqs, _rows(known, m, n), _symmetric(known[m * n :], m)), THOROUGH)
     return Pushes(shifts, ends)
 
 
 def _ends(found: Solved, impulse: Expr, before: Table) -> list[Expr]:
     """What `Pushes.ends` says."""
-    eqs, m = found.eqs, len(before)
+    eqs = found.eqs
     kicked = tuple(impulse * part for part in found.free)
     rates = [eqs.symbols.rates[name] for name in eqs.symbols.free]
     slips = [slip.subs(dict(zip(rates, map(_sum, rates, kicked), strict=True))) for slip in eqs.constraints.slips]
@@ -88,8 +88,7 @@ def _ends(found: Solved, impulse: Expr, before: Table) -> list[Expr]:
     crossed = tuple(tuple(dot(row, each) for each in found.responses) for row in before)
     return [
         *_flat(found.responses),
-        *(found.share.lower[k][j] for k in range(m) for j in range(k)),
-        *(ONE / pivot for pivot in found.share.pivots),
+        *found.share.inverse(),
         *found.free,
         *(kick - part for kick, part in zip(kicked, lost, strict=True)),
         *_flat(eqs.constraints.jacobian),
@@ -98,22 +97,19 @@ def _ends(found: Solved, impulse: Expr, before: Table) -> list[Expr]:
     ]
 
 
-def _shifts(eqs: Equations, responses: Table, factors: Factors) -> list[Expr]:
+def _shifts(eqs: Equations, responses: Table, inverse: Table) -> list[Expr]:
     """What `Pushes.shifts` says."""
     values = [eqs.symbols.values[name] for name in eqs.symbols.free]
-    first = factors.solve(eqs.constraints.gaps)
+    first = along(inverse, eqs.constraints.gaps)
     moved = along(responses, first)
     there = {value: value - change for value, change in zip(values, moved, strict=True)}
-    second = factors.solve([gap.subs(there) for gap in eqs.constraints.gaps])
+    second = along(inverse, tuple(gap.subs(there) for gap in eqs.constraints.gaps))
     return [*map(_sum, first, second), *moved, *along(responses, second)]
 
 
-def _factors(numbers: Sequence[Expr], m: int) -> Factors:
-    """L D Lᵀ with L and 1/D among the inputs."""
-    source = iter(numbers)
-    lower = tuple(tuple(next(source) for _ in range(k)) for k in range(m))
-    pivots = tuple(ONE / next(source) for _ in range(m))
-    return Factors(lower, pivots, pivots)
+def _symmetric(triangle: Sequence[Expr], m: int) -> Table:
+    """The matrix whose lower triangle that is."""
+    return tuple(tuple(triangle[max(i, k) * (max(i, k) + 1) // 2 + min(i, k)] for k in range(m)) for i in range(m))
 
 
 def along(rows: Table, multiples: Vector) -> Vector:

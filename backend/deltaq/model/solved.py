@@ -26,11 +26,17 @@ MOST_PRODUCTS = 2000  # of numbers; a model that needs more is solved by loops, 
 
 @dataclass(frozen=True)
 class Factors:
-    """L D Lᵀ of a symmetric matrix: `lower` is L below its diagonal of ones, `pivots` D, `diagonal` its own."""
+    """L D Lᵀ of a symmetric matrix: `lower` is L below its diagonal of ones, `pivots` D, `diagonal` its own.
+
+    Where two rows are coupled, there are no more, and their `entry` beside the diagonal solves with a single division:
+    one waits for another one in the factors. Both are as good (Higham, Accuracy and Stability of Numerical Algorithms,
+    2nd ed., §1.10.1).
+    """
 
     lower: tuple[Vector, ...]
     pivots: Vector
     diagonal: Vector
+    entry: Expr = ZERO
 
     @classmethod
     def of(cls, matrix: Sequence[Sequence[Expr]]) -> Factors:
@@ -45,10 +51,14 @@ class Factors:
             pivots.append(entries[i] - dot(scaled, row))
             lower.append(row)
         diagonal = tuple(row[i] for i, row in enumerate(matrix))
-        return cls(tuple(map(tuple, lower)), tuple(pivots), diagonal)
+        return cls(tuple(map(tuple, lower)), tuple(pivots), diagonal, matrix[1][0] if len(matrix) == 2 else ZERO)
 
     def solve(self, right: Sequence[Expr]) -> Vector:
         """The solution for a right side that has as many entries as there are rows, or as the first of them."""
+        if self.entry != 0 and len(right) == 2:
+            a, b, c = self.diagonal[0], self.entry, self.diagonal[1]
+            inverse = ONE / self.determinant
+            return (c * right[0] - b * right[1]) * inverse, (a * right[1] - b * right[0]) * inverse
         found: list[Expr] = []
         for row, entry in zip(self.lower, right, strict=False):
             found.append(entry - dot(row, found))
@@ -57,9 +67,22 @@ class Factors:
             found[i] = found[i] - dot([self.lower[k][i] for k in range(i + 1, len(found))], found[i + 1 :])
         return tuple(found)
 
+    @property
+    def determinant(self) -> Expr:
+        """That of two coupled rows."""
+        return self.diagonal[0] * self.diagonal[1] - self.entry * self.entry
+
+    def inverse(self) -> list[Expr]:
+        """The lower triangle of the inverse, by rows."""
+        size = len(self.pivots)
+        columns = [self.solve([ONE if i == k else ZERO for i in range(size)]) for k in range(size)]
+        return [columns[k][i] for i in range(size) for k in range(i + 1)]
+
     @cached_property
     def smallest(self) -> Expr:
         """The smallest pivot relative to the diagonal entry that it is left of; 1 where none has lost anything."""
+        if self.entry != 0:
+            return _least([ONE, self.determinant / (self.diagonal[0] * self.diagonal[1])])
         parts = [pivot / own for pivot, own in zip(self.pivots, self.diagonal, strict=True) if pivot != own]
         return _least([ONE, *parts])
 

@@ -51,12 +51,18 @@ class Motion(NamedTuple):
 
 
 @inline
+def has_signs(out: Floats, signs: int) -> bool:
+    """Whether the signs of a solution in symbols, at that place of `out`, shape (≥ signs + 3,), say that it is one."""
+    return bool(out[signs] > SMALLEST_PIVOT and out[signs + 1] > SMALLEST_SHARE and out[signs + 2] > 0.0)
+
+
+@inline
 def holds(out: Floats, first: int, count: int, signs: int) -> bool:
     """Whether a solution in symbols is one: by its signs, and by whether `count` of its numbers are finite.
 
     `out` has shape (≥ signs + 3,).
     """
-    if not (out[signs] > SMALLEST_PIVOT and out[signs + 1] > SMALLEST_SHARE and out[signs + 2] > 0.0):
+    if not has_signs(out, signs):
         return False
     total = 0.0
     for i in range(first, first + count):

@@ -103,18 +103,18 @@ def project(system: System, h: float) -> int:
 
 
 @inline
-def turning(system: System) -> float:
-    """det(A₀ M⁻¹A₁ᵀ) over the independent constraints, A₀ from before the step, A₁ at the state that `accelerate` saw.
+def turning(system: System, responses: Floats) -> float:
+    """det(A₀ M⁻¹A₁ᵀ) over the independent constraints, A₀ from before the step, A₁ M⁻¹ the `responses`, shape (m n,).
 
-    It changes its sign where the constraints lose their independence on the way from A₀ to A₁, or where that turns
-    by more than a right angle.
+    These are `system.responses` where `accelerate` saw the state. It changes its sign where the constraints lose their
+    independence on the way from A₀ to A₁, or where that turns by more than a right angle.
     """
     n, rank, minor = system.head[DEGREES], system.head[RANK], system.minor
     for k in range(rank):
         for j in range(rank):
             total, a, b = 0.0, system.order[k], system.order[j]
             for i in range(n):
-                total += system.before[a * n + i] * system.responses[b * n + i]
+                total += system.before[a * n + i] * responses[b * n + i]
             minor[k * rank + j] = total
     return determinant(minor, rank)
 
@@ -152,7 +152,7 @@ def is_locked_between(system: System, t: float, h: float, ends: Ends) -> bool:
         place_between(system, middle, t, h, ends)
         if accelerate(system) != FINE:
             return True
-        first = turning(system)
+        first = turning(system, system.responses)
         if first <= 0.0:
             high = middle
             continue
@@ -160,7 +160,7 @@ def is_locked_between(system: System, t: float, h: float, ends: Ends) -> bool:
         place_between(system, high, t, h, ends)
         if accelerate(system) != FINE:
             return True
-        if turning(system) > 0.0:
+        if turning(system, system.responses) > 0.0:
             return False
         low = middle
     return True
@@ -216,7 +216,7 @@ def finish_step(system: System, t: float, h: float, ends: Ends) -> int:
         new_derivative[d], new_derivative[n + d] = new[n + d], system.bends[d]
     if system.head[POWERED]:
         new_derivative[2 * n] = power_of(system)
-    if not turning(system) > 0.0:
+    if not turning(system, system.responses) > 0.0:
         if is_locked_between(system, t, h, ends):
             return LOCKED
         take_state(system, t + h, new)

@@ -26,7 +26,7 @@ class Pushed(NamedTuple):
     """What `model.pushes` compiled, by addresses, and the numbers they read and write; the addresses are 0 for none.
 
     `given` are the inputs of a model and what `Places` has behind them; of these `impulse`, shape (1,), `before`, shape
-    (m n,), and `told` are parts. `told` begins with R, shape (m n,), and the factors of S; `free`, shape (n,), `lost`,
+    (m n,), and `told` are parts. `told` begins with R, shape (m n,), and S⁻¹; `free`, shape (n,), `lost`,
     shape (n,), `rows`, shape (m n,), and `signs`, shape (3,), are its other parts. `moves`, shape (m + 2 n,), receives
     what is said of shifts. `resting`, shape (1,), is how many steps numbers have still to make; −1 behind the last.
     """

@@ -259,7 +259,7 @@ def advance_held(
         computed += 1
     if outcome == FINE:
         settle_rates(system, held.behind * h, workspace)
-    if outcome != FINE or not turning(system) > 0.0:
+    if outcome != FINE or not turning(system, system.responses) > 0.0:
         outcome, is_known = look_closely(motion.finish, held.block, t, h, outcome, workspace.ends), False
     keep_rows(system)
     motion.conditioning[0] = min(motion.conditioning[0], system.conditioning[0])

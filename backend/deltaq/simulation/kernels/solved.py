@@ -6,7 +6,7 @@ Source: Hairer, Wanner, Solving Ordinary Differential Equations II, 2nd ed., VII
 from __future__ import annotations
 
 from .compiler import callback, inline
-from .motion import FINE, Floats, holds
+from .motion import FINE, Floats, has_signs, holds
 from .pointer import call, doubles_at, prevent_vectorization
 from .projection import CLOSE, Ends, finish_step, take_state, turning
 from .system import (
@@ -52,13 +52,14 @@ def correct_solved(system: System, h: float, rates: Floats) -> tuple[bool, bool]
 def project_solved(system: System, h: float, rates: Floats) -> bool:
     """Moves the state in `inputs` onto g = 0 and w = 0, in the metric of M; whether that was possible.
 
-    Each correction is one of Newton's own, with A and M where it is made: they converge quadratically. `rates` are d/dt
-    of (q, q̇) nearby, shape (≥ 2n,).
+    Each correction is one of Newton's own, with A and M where it is made: they converge quadratically. Numbers that are
+    not finite never do. `rates` are d/dt of (q, q̇) nearby, shape (≥ 2n,).
     """
-    n, first = system.head[DEGREES], 2 * system.head[COUNT] * system.head[DEGREES]
+    n = system.head[DEGREES]
+    first = 2 * system.head[COUNT] * n
     for tries in range(MOST_CORRECTIONS):
         call(system.head[CORRECTED], system.head[CORRECTED_DATA], system.corrections, system.inputs)
-        if not holds(system.corrections, first, 2 * n, first + 2 * n):
+        if not has_signs(system.corrections, first + 2 * n):
             return False
         is_close, is_small = correct_solved(system, h, rates)
         if is_close or (tries >= SURE and is_small):
@@ -83,9 +84,7 @@ def finish_solved(system: System, t: float, h: float, ends: Ends) -> bool:
         call(system.head[SOLVED], system.head[SOLVED_DATA], system.outputs, system.inputs)
         if not holds(system.outputs, force, n, rows):
             return False
-    for i in range(size):
-        system.responses[i] = system.corrections[size + i]
-    if not turning(system) > 0.0:
+    if not turning(system, system.corrections[size : 2 * size]) > 0.0:
         return False
     for d in range(n):
         new[d], new[n + d] = system.inputs[d], system.inputs[n + d]
