@@ -189,8 +189,8 @@ def test_parts_that_do_not_fit_are_refused_at_their_constraint() -> None:
 
 @pytest.mark.parametrize(
     "change",
-    [{"parameters": {"c": 1e-300}}, {"parameters": {"s": 1e-15}}, {"initial": {"phi1": {"value": 1e300}}}],
-    ids=["no length", "a short one", "an angle without digits"],
+    [{"parameters": {"c": 1e-300}}, {"parameters": {"s": 1e-15}}, {"initial": {"phi1": {"value": 1e15}}}],
+    ids=["no length", "a short one", "an angle of few digits"],
 )
 def test_numbers_with_which_constraints_cannot_be_kept_are_refused_at_one(change: dict[str, object]) -> None:
     with pytest.raises(SceneError) as caught:
