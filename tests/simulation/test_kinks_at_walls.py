@@ -1,4 +1,4 @@
-"""A kink of a potential at the very place of a wall: the other side of it is never met."""
+"""Walls: with a kink of a potential at their very place, whose other side is never met, and in any unit of a gap."""
 
 from __future__ import annotations
 
@@ -45,3 +45,16 @@ def test_forces_that_switch_to_and_fro_end_a_motion_soon_and_it_is_said() -> Non
     )
     assert answer["status"] in {"ok", "step_limit"}
     assert max(map(abs, answer["coordinates"]["x"])) < 1e-9  # type: ignore[index]
+
+
+@pytest.mark.parametrize("scale", ["1/1000000", "1/1000", "7", "1000", "1000000"])
+@pytest.mark.parametrize(
+    ("height", "begins", "rate"), [(0.1 + 0.2, 0.3, 0.0), (0.3, 0.3, 0.0), (0.0, 0.5, 0.0), (-4.0, -4.0, 1.0)]
+)
+def test_a_contact_is_the_same_in_any_unit_of_its_gap(scale: str, height: float, begins: float, rate: float) -> None:
+    """Starts on the table at any height, where rounding may put it on either side, and rebounds that pile up there."""
+    scene = document([potential("m*g*x")], {"h": height}, [wall(f"{scale}*(x - h)")])
+    asked = {"initial": {"x": {"value": begins, "rate": rate}}, "t_end": 2.0, "samples": 5, "tolerance": 1e-9}
+    answer = run({"scene": scene, **asked})
+    assert answer["status"] == "ok"
+    assert answer["coordinates"]["x"][-1] == pytest.approx(height, abs=5e-11)  # type: ignore[index]

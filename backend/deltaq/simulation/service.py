@@ -39,7 +39,7 @@ from .rounding import short
 from .run import Steps
 from .run import run as one_run
 from .trajectory import Trajectory
-from .transitions import TOUCHING, NoDirectionError, UnsettledError, begun
+from .transitions import NUDGE, TOUCHING, NoDirectionError, UnsettledError, begun
 
 ANGLES = frozenset({"rad", "1", "°", "deg"})
 # Seconds for what is interpreted: where one waits, where others wait, too, and where that is quicker than compiling.
@@ -126,11 +126,21 @@ def require_no_event(scene: Scene, problem: Problem) -> None:
     problems = [
         errors.Problem("event-at-start", f"/events/{i}/value", parameters=_at_start(event, value))
         for i, (event, value) in enumerate(zip(scene.events, values, strict=True))
-        if not (value > 0.0 or (event.bounces and value >= -TOUCHING * max(map(abs, (1.0, *problem.values)))))
+        if not (value > 0.0 or (event.bounces and value >= -_touching(problem, i)))
     ]
     if problems:
         raise errors.SceneError(*problems)
     _require_beginning(scene, problem)
+
+
+def _touching(problem: Problem, index: int) -> float:
+    """How much a gap may be below zero of a contact that is closed: what rounding of the coordinates does to it."""
+    size = max(map(abs, (1.0, *problem.values)))
+    steps = np.hstack([np.eye(problem.degrees), np.zeros((problem.degrees, problem.state.size - problem.degrees))])
+    states = problem.state + NUDGE * size * np.vstack([np.zeros(problem.state.size), steps])
+    first, *others = event_values(problem, np.zeros(len(states)), states)[:, index]
+    slope = max(abs(float(other - first)) for other in others) / (NUDGE * size)
+    return TOUCHING * size * (slope or 1.0)
 
 
 def _require_beginning(scene: Scene, problem: Problem) -> None:

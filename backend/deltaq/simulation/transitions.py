@@ -149,6 +149,15 @@ class ModeState:
         return self.moved_by(packed[n * (n + 1) // 2 : n * (n + 1) // 2 + n], self.kept[1])
 
     @property
+    def touching(self) -> list[int]:
+        """The contacts that are closed, but for rounding."""
+        return [j for j, gap in enumerate(self.facts.gaps) if gap <= TOUCHING * self.scale(j) * _size(self.q)]
+
+    def scale(self, contact: int) -> float:
+        """How far a gap changes with the coordinates, at most; 1 where it does not."""
+        return float(np.abs(self.facts.a[len(self.modes.frictions) + contact]).max()) or 1.0
+
+    @property
     def watched(self) -> Floats:
         """The values that are positive as long as the mode lasts, with its offsets: shape (watched,)."""
         return np.asarray(self.problem.model.events.table(self.row)[0])  # type: ignore[union-attr]
@@ -190,7 +199,7 @@ def begun(problem: Problem, modes: Modes) -> ModeState:
     current = ModeState(own, modes, 0.0, state[:n].copy(), state[n : 2 * n].copy(), empty)
     kinks = tuple(-1.0 if kink < 0.0 else 1.0 for kink in current.facts.kinks)
     current = replace(current, mode=replace(empty, kinks=kinks))
-    closed = [j for j, gap in enumerate(current.facts.gaps) if gap <= TOUCHING * _size(current.q)]
+    closed = current.touching
     return _resolved(_after_impacts(current, closed[0]) if closed else current, frozenset(closed), None)
 
 
@@ -240,9 +249,9 @@ def _contact_before(current: ModeState, kink: int) -> int | None:
     facts, step = current.facts, NUDGE * _size(current.q)
     beside = [replace(current, q=current.q + step * each) for each in np.eye(len(current.q))]
     slope = np.array([each.facts.kinks[kink] - facts.kinks[kink] for each in beside])
-    for j, gap in enumerate(facts.gaps):
+    for j in current.touching:
         row = facts.a[len(current.modes.frictions) + j]
-        if row.any() and gap <= TOUCHING * _size(current.q):
+        if row.any():
             share = float(slope @ row) / float(row @ row)
             left = float(np.linalg.norm(slope - share * row))
             if share * current.mode.kinks[kink] > 0.0 and left <= NUDGE * float(np.linalg.norm(slope)):
@@ -277,13 +286,13 @@ def _after_impacts(current: ModeState, first: int) -> ModeState:
     frictions = len(current.modes.frictions)
     free = current.with_flags((0.0,) * current.modes.rows)
     resting = {j for j in range(len(current.modes.contacts)) if current.mode.flags[frictions + j]}
-    touching = {first} | resting | {j for j, gap in enumerate(free.facts.gaps) if gap <= TOUCHING * _size(free.q)}
+    touching = {first} | resting | set(free.touching)
     for j in touching:
         _require_direction(free, j)
     for _ in range(MOST_IMPACTS):
         rates = {j: float(free.facts.w[frictions + j]) for j in touching}
-        j = min(rates, key=lambda each: rates[each])
-        if rates[j] >= -STILL * _size(free.v):
+        j = min(rates, key=lambda each: rates[each] / free.scale(each))
+        if rates[j] >= -STILL * free.scale(j) * _size(free.v):
             return replace(free, mode=current.mode)
         e = 0.0 if _rests(free, frictions + j, j) else float(free.facts.restitutions[j])
         free = free.pushed(frictions + j, -(1.0 + e) * rates[j])
@@ -305,7 +314,7 @@ def _rests(current: ModeState, row: int, contact: int) -> bool:
     pull = -float(facts.a[row] @ current.accelerations + facts.bias[row])
     if not pull > 0.0:
         return False
-    height, lost = rebound**2 / (2.0 * pull), 1.0 - e**2
+    height, lost = rebound**2 / (2.0 * pull) / current.scale(contact), 1.0 - e**2
     return height <= LOWEST * _size(current.q) and height * lost <= HEIGHT * _size(current.q)
 
 
@@ -317,10 +326,11 @@ def _resolved(current: ModeState, closed: frozenset[int], released: int | None) 
         s if abs(w) <= HARDLY * size else float(np.sign(w)) for s, w in zip(current.mode.slips, facts.w, strict=False)
     ]
     held = [abs(float(facts.w[k])) <= HARDLY * size for k in range(frictions)]
+    touching = current.touching
     for j in range(len(modes.contacts)):
         row = frictions + j
-        touches = j in closed or current.mode.flags[row] or facts.gaps[j] <= TOUCHING * _size(current.q)
-        held.append(bool(touches and abs(float(facts.w[row])) <= 10.0 * STILL * size))
+        touches = j in closed or current.mode.flags[row] or j in touching
+        held.append(bool(touches and abs(float(facts.w[row])) <= 10.0 * STILL * current.scale(j) * size))
     if released is not None:
         held[released] = False
         if released < frictions:
@@ -384,6 +394,7 @@ def _offset(current: ModeState) -> ModeState:
     offsets = []
     for place, value in enumerate(plain.watched):
         room = HARDLY * _size(current.v) if first <= place < last else ROUNDING * _size(current.q)
+        room *= current.scale(place - last) if place >= last else 1.0
         offsets.append(0.0 if place < ending or value > room else room - min(float(value), 0.0))
     return replace(current, mode=replace(current.mode, offsets=tuple(offsets)))
 
