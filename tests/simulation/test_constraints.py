@@ -179,6 +179,24 @@ def test_initial_values_are_moved_onto_the_constraints_and_told() -> None:
     assert problem.moved.rates == pytest.approx((-0.5, 0.0))
 
 
+@pytest.mark.parametrize("power", range(-20, -12))
+@pytest.mark.parametrize("tilt", [0.1, 0.5, 0.9, 1.4])
+def test_rates_as_small_as_rounding_are_kept(tilt: float, power: int) -> None:
+    """A falling rod turns as slowly as its ends part across it; as if it did not, its rate says g t."""
+    part, ends = 10.0**power, [(0.0, 0.0), (float(np.cos(tilt)), float(np.sin(tilt)))]
+    begin = {
+        "x1": (ends[0][0], -part),
+        "y1": (ends[0][1], -2.0),
+        "x2": (ends[1][0], part),
+        "y2": (ends[1][1], -2.0),
+    }
+    bodies = [particle("one", "x1", "y1"), particle("two", "x2", "y2")]
+    found = moved(scene(begin, {"m": 1.0, "l": 1.0, "g": G}, bodies, [rod("S", "one", "two")]), 0.1)
+    assert found.outcome.status in ("ok", "horizon_reached")  # of what is as small as rounding no digit may be left
+    assert found.reached == 0.1
+    np.testing.assert_allclose(found.rates[-1], [0.0, -2.0 - 0.1 * G, 0.0, -2.0 - 0.1 * G], atol=1e-11)
+
+
 def test_parts_that_do_not_fit_are_refused_at_their_constraint() -> None:
     with pytest.raises(SceneError) as caught:
         problem_of(four_bar(5.0), 1.0)

@@ -20,7 +20,6 @@ import numpy as np
 from ..mechanics.scene import Scene
 from ..model.modes import Modes
 from ..model.observables import Observables
-from ..model.recurrences import nudged
 from ..simulation.audit import Audit
 from ..simulation.hybrid import run_on
 from ..simulation.integration import Flag
@@ -59,21 +58,19 @@ class HybridMotions:
     cancelled: Flag
 
     def run(self, start: Floats, *, is_twin: bool = False) -> Run:
-        """The motion from a start, shape (2n,); its twin is some units in the last place away and steps otherwise."""
-        n, parameters, count = self.problem.degrees, np.array(self.problem.parameters), self.samples
-        size = LARGEST_STEP * self.problem.t_end
+        """The motion from a start, shape (2n,); its twin steps otherwise, and is shaken."""
+        n, size, count = self.problem.degrees, LARGEST_STEP * self.problem.t_end, self.samples
         if is_twin:
-            start, parameters, count, size = nudged(start), nudged(parameters), count + count // 7, size / APART
+            size, count = size / APART, count + count // 7
         own = replace(
             self.problem,
             model=self.modes.model,
             values=tuple(start[:n].tolist()),
             rates=tuple(start[n : 2 * n].tolist()),
-            parameters=tuple(parameters.tolist()),
         )
         method, times = get_method("taylor"), np.linspace(0.0, own.t_end, count + 1)
         pieces = Audit(begun(own, self.modes).problem, method).before(TOLERANCE)
-        steps = Steps(size, TOLERANCE, pieces, order=ORDER, is_recorded=True)
+        steps = Steps(size, TOLERANCE, pieces, order=ORDER, is_recorded=True, shaken=int(is_twin))
         return run_on(own, self.modes, method, times, self.cancelled, steps)
 
     def following(self, start: Floats, period: float) -> HybridMotions:

@@ -27,6 +27,7 @@ from .transitions import begun
 TRIES = 6
 ROUNDS = 4  # of shorter steps where a run was blind
 BY_EVENTS = 0.5  # of the difference, where a motion goes on behind events
+BY_IMPACTS = 1.0  # times the difference of a run that is shaken otherwise
 SAME_PLACE = 1e-6  # of the time: runs that end so close to each other end at the same place
 BRIEF = 5_000  # right-hand sides; fewer take less time than a second thread needs to begin
 
@@ -105,7 +106,14 @@ class Integrator:
         difference.
         """
         is_answer = self.refinement.answer == LAST or steps.tolerance == 0.0
-        return self._run(steps if is_answer or self.modes is not None else replace(steps, is_nudged=True))
+        if is_answer:
+            return self._run(steps)
+        return self._run(replace(steps, is_nudged=True) if self.modes is None else replace(steps, shaken=1))
+
+    @property
+    def _shaken(self) -> int:
+        """The pattern by which the run of a pair that is not the answer is shaken."""
+        return 0 if self.modes is None else 1
 
     @property
     def judge(self) -> Problem:
@@ -134,7 +142,7 @@ class Integrator:
         whole = Pieces.whole(self.problem.t_end)
 
         def compared(pieces: Pieces) -> Attempt:
-            fine = Steps(step, pieces=pieces, ratio=FINER, is_recorded=True)
+            fine = Steps(step, pieces=pieces, ratio=FINER, is_recorded=True, shaken=self._shaken)
             runs = self._both(Steps(step, pieces=whole), fine)
             return Attempt(runs[0], runs, self._estimated(*runs, self.refinement.factor_of_coarse))
 
@@ -169,11 +177,11 @@ class Integrator:
         The coarser one is the best of the attempt before where the two can be compared.
         """
         coarse, fine = self.refinement.pair(resolution, pieces)
-        known = None if before is None else self._comparable(before, fine)
+        known = None if before is None or self.modes is not None else self._comparable(before, fine)
 
         def compared(pieces: Pieces) -> Attempt:
             of_fine = replace(fine, pieces=self.refinement.of_fine(pieces), is_recorded=True)
-            of_coarse = replace(coarse, pieces=pieces)
+            of_coarse = replace(coarse, pieces=pieces, shaken=self._shaken if self.refinement.answer == LAST else 0)
             runs = self._both(of_coarse, of_fine) if known is None else (known, self._finer(of_fine))
             factor, answer = self._factor(*runs), self.refinement.answer
             return Attempt(runs[answer], runs, self._estimated(*runs, factor), is_shared=known is not None)
@@ -221,11 +229,26 @@ class Integrator:
         Where rounding may matter, one more run with a disturbed model measures it.
         """
         fine = found.runs[-1]
+        if found.estimate is not None and any(each.kind == "impact" for each in found.chosen.transitions):
+            found = self._with_impacts(found, found.estimate)
         if found.estimate is None or not rounding_matters(self.judge, fine, found.estimate):
             return found
         other = self._disturbed._run(replace(fine.steps, is_recorded=False))  # noqa: SLF001 - its own kind
         mended = with_rounding(self.judge, found.estimate, fine, other)
         return replace(found, estimate=mended, discarded=(*found.discarded, other))
+
+    def _with_impacts(self, found: Attempt, known: Estimate) -> Attempt:
+        """The attempt, its answer compared with a run that is shaken otherwise than the other of the pair.
+
+        Behind impacts neighbours part, and rounding with them; a single one may come back by chance, and errors that
+        have grown stay.
+        """
+        third = self._run(replace(found.runs[-1].steps, is_recorded=False, shaken=2))
+        if not len(third.times):
+            return replace(found, discarded=(*found.discarded, third))
+        both = larger(known, estimate(self.judge, found.chosen, third, BY_IMPACTS))
+        lasting = replace(both, errors=np.maximum.accumulate(both.errors))
+        return replace(found, estimate=lasting, discarded=(*found.discarded, third))
 
     @property
     def _disturbed(self) -> Integrator:

@@ -93,7 +93,8 @@ class Steps:
 
     Pieces bound the steps further; of fixed ones each piece gets a whole number, `ratio` times as many as it needs.
     `order` is that of a method whose order may be chosen, None for what suits the tolerance. A run that `is_nudged`
-    begins some units in the last place away, with constants that are as far away; only series can.
+    begins some units in the last place away, with constants that are as far away; only series can. One that goes on
+    behind events and is `shaken` has its rates moved there, by a pattern of this number (`hybrid`); 0 for none.
     """
 
     size: float
@@ -103,6 +104,7 @@ class Steps:
     is_recorded: bool = False
     order: int | None = None
     is_nudged: bool = False
+    shaken: int = 0
 
     def plan(self, t_end: float, degrees: int, method: Method) -> Plan:
         """Pieces and sizes as a kernel wants them; the last fixed step of an implicit method may go past the end."""

@@ -27,7 +27,7 @@ from .system import (
     place_of_rows,
 )
 
-CORRECTIONS, CLOSE = 12, 1e-9  # Newton's corrections of a state; behind one this small, relative to it, comes rounding
+CORRECTIONS, CLOSE = 40, 1e-9  # Newton's corrections of a state; behind one this small, relative to it, comes rounding
 GRAIN = 2.0**-52  # of the first correction: a coordinate that is zero on the constraints gets no nearer
 STALLED = 0.5  # corrections that are no smaller than this part of the one before are rounding errors, if they are small
 HALVINGS = 26  # of a step in which the constraints seem to turn round
