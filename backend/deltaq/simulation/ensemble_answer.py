@@ -23,7 +23,6 @@ from .problem import Floats
 from .rounding import rounded, short
 from .service import problem_of, require_no_event
 
-SCALE = 2.0**-20  # of so large values the sum of all runs is a number, too
 LEVELS = (0.05, 0.25, 0.5, 0.75, 0.95)
 
 
@@ -204,12 +203,11 @@ def _statistics(asked: EnsembleRequest, names: list[str], found: EnsembleMotion)
     written, answer = WRITERS[asked.columns].write, Document()
     reached = int(np.isfinite(found.values).any(axis=(0, 2)).sum())
     values = found.values[:, :reached]
-    scale = SCALE if np.nanmax(np.abs(values), initial=0.0) > LARGEST else 1.0
     if "mean" in asked.statistics:
-        mean = np.nanmean(values * scale, axis=0) / scale
+        mean = np.nanmean(values, axis=0)
         answer["mean"] = {name: written(np.ascontiguousarray(mean[:, i])) for i, name in enumerate(names)}
     if "quantiles" in asked.statistics:
-        levels = np.nanquantile(values * scale, LEVELS, axis=0) / scale
+        levels = np.nanquantile(values, LEVELS, axis=0)
         columns = {name: [written(np.ascontiguousarray(row[:, i])) for row in levels] for i, name in enumerate(names)}
         answer["quantiles"] = {"levels": list(LEVELS), "values": columns}
     return answer
