@@ -72,7 +72,10 @@ def make_pushed(addresses: tuple[int, int, int, int], given: Floats, n: int, m: 
 
 @inline
 def look_ahead(pushed: Pushed, conditioning: Floats) -> bool:
-    """What is to be known at the state in `given`; whether there is a solution. A there becomes that `before`."""
+    """What is to be known at the state in `given`; whether there is a solution.
+
+    `conditioning` has shape (1,): the smallest pivot met.
+    """
     call(pushed.ends, pushed.ends_data, pushed.told, pushed.given)
     signs = pushed.signs
     if not (signs[1] > SMALLEST_PIVOT and signs[2] > SMALLEST_SHARE):
@@ -90,7 +93,10 @@ def keep_before(pushed: Pushed) -> None:
 
 @inline
 def begin_pushed(pushed: Pushed, n: int, t: float, conditioning: Floats, workspace: SplitWorkspace) -> bool:
-    """What is to be known at the start of a step where it is not yet; whether there is a solution."""
+    """What is to be known at the start of a step where it is not yet; whether there is a solution.
+
+    `conditioning` has shape (1,): the smallest pivot met.
+    """
     for d in range(2 * n):
         pushed.given[d] = workspace.ends.old[d]
     pushed.given[2 * n], pushed.impulse[0] = t, 0.0
