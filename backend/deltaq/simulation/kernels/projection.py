@@ -27,7 +27,8 @@ from .system import (
     place_of_rows,
 )
 
-CORRECTIONS, CLOSE = 40, 1e-9  # Newton's corrections of a state; behind one this small, relative to it, comes rounding
+CORRECTIONS, CLOSE = 12, 1e-9  # Newton's corrections of a state; behind one this small, relative to it, comes rounding
+MOST_CORRECTIONS = 40  # of a state that is close, of which rounding takes up to half of each
 GRAIN = 2.0**-52  # of the first correction: a coordinate that is zero on the constraints gets no nearer
 STALLED = 0.5  # corrections that are no smaller than this part of the one before are rounding errors, if they are small
 HALVINGS = 26  # of a step in which the constraints seem to turn round
@@ -80,7 +81,7 @@ def project(system: System, h: float) -> int:
         weigh(system, holonomic, of_gaps)
         gap_rank, _ = factor_ranked(of_gaps, gap_order, holonomic)
     before, first = np.inf, 0.0
-    for _ in range(CORRECTIONS):
+    for tries in range(MOST_CORRECTIONS):
         read_gaps(system)
         relative, absolute = 0.0, 0.0
         if holonomic > 0:
@@ -98,6 +99,8 @@ def project(system: System, h: float) -> int:
         first = max(first, absolute)
         if relative <= CLOSE or (absolute >= STALLED * before and absolute <= CLOSE) or absolute <= GRAIN * first:
             return FINE
+        if tries + 1 >= CORRECTIONS and absolute > CLOSE:
+            return NEWTON_FAILED
         before = absolute
     return NEWTON_FAILED
 
