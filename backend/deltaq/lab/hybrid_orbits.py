@@ -87,7 +87,7 @@ def parts_of(run: Run) -> Iterator[Part]:
     ends = [mesh.start for mesh in run.meshes[1:]] + [math.inf]
     for mesh, end in zip(run.meshes, ends, strict=True):
         n = mesh.problem.degrees
-        inside = (run.times > mesh.start) & (run.times < (end if math.isfinite(end) else math.inf))
+        inside = (run.times > mesh.start) & (run.times < end)
         begin = np.array([[*mesh.problem.values, *mesh.problem.rates, mesh.start]])
         rows = [begin, np.column_stack([run.states[inside, : 2 * n], run.times[inside]])]
         if math.isfinite(end) and len(mesh.mesh_times):

@@ -181,7 +181,8 @@ class _Look:
         Source: T. R. Chandrupatla, Advances in Engineering Software 28 (1997) 145–149: inverse quadratic interpolation
         where three values allow it, else the middle.
         """
-        near = max(math.ulp(b), 0.5 * math.ulp(self.time(b)) / float(self._times[-1] - self._times[0]))
+        span = float(self._times[-1] - self._times[0])
+        near = max(math.ulp(b), 0.5 * math.ulp(self.time(b)) / span if span > 0.0 else 0.0)
         (x1, f1), (x2, f2), part = (b, below), (a, above), below / (below - above)
         for _ in range(MOST_ROOT_STEPS):
             x = x1 + min(max(part, near / abs(x2 - x1)), 1.0 - near / abs(x2 - x1)) * (x2 - x1)
