@@ -27,7 +27,7 @@ from .transitions import begun
 TRIES = 6
 ROUNDS = 4  # of shorter steps where a run was blind
 BY_EVENTS = 0.5  # of the difference, where a motion goes on behind events
-BY_IMPACTS = 1.0  # times the difference of a run that is shaken otherwise
+BY_IMPACTS = 1.0  # times the differences of runs that are shaken otherwise
 SAME_PLACE = 1e-6  # of the time: runs that end so close to each other end at the same place
 BRIEF = 5_000  # right-hand sides; fewer take less time than a second thread needs to begin
 
@@ -238,7 +238,7 @@ class Integrator:
         return replace(found, estimate=mended, discarded=(*found.discarded, other))
 
     def _with_impacts(self, found: Attempt, known: Estimate) -> Attempt:
-        """The attempt, its answer compared with a run that is shaken otherwise than the other of the pair.
+        """The attempt, its answer compared with the other run of the pair and with one that is shaken otherwise.
 
         Behind impacts neighbours part, and rounding with them; a single one may come back by chance, and errors that
         have grown stay.
@@ -246,8 +246,9 @@ class Integrator:
         third = self._run(replace(found.runs[-1].steps, is_recorded=False, shaken=2))
         if not len(third.times):
             return replace(found, discarded=(*found.discarded, third))
-        both = larger(known, estimate(self.judge, found.chosen, third, BY_IMPACTS))
-        lasting = replace(both, errors=np.maximum.accumulate(both.errors))
+        for other in (third, *(each for each in found.runs if each is not found.chosen)):
+            known = larger(known, estimate(self.judge, found.chosen, other, BY_IMPACTS))
+        lasting = replace(known, errors=np.maximum.accumulate(known.errors))
         return replace(found, estimate=lasting, discarded=(*found.discarded, third))
 
     @property
