@@ -159,6 +159,12 @@ REFUSED = [
     pytest.param({"scene": "catching-pendulum"}, "section-dissipation", "/scene", id="energy is lost at impacts"),
     pytest.param({"scene": "stick-slip"}, "section-one-degree", "/scene", id="one degree on a steady belt"),
     pytest.param({"scene": "bouncing-ball", "energy": 1.0}, "section-energy-driven", "/energy", id="no energy is kept"),
+    pytest.param(
+        {"scene": "bouncing-ball", "initial": {"z": {"value": -5.0}}},
+        "event-at-start",
+        "/scene/events/0/value",
+        id="under the table",
+    ),
     pytest.param({"scene": "bouncing-ball", "plane": "z - 50"}, "section-never-met", "/plane", id="too high"),
 ]
 

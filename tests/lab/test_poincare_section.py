@@ -154,6 +154,9 @@ REFUSED = [
     pytest.param({"scene": "kapitza", "energy": 1.0}, "section-energy-driven", "/energy", id="no energy is kept"),
     pytest.param({"scene": OSCILLATORS, "plane": "m + 1"}, "section-plane-constant", "/plane", id="no plane"),
     pytest.param({"scene": OSCILLATORS, "plane": "x - x"}, "section-plane-constant", "/plane", id="zero"),
+    pytest.param(
+        {"scene": OSCILLATORS, "plane": "1/(y - 1/10)"}, "section-never-met", "/plane", id="a pole is no root"
+    ),
     pytest.param({"scene": OSCILLATORS, "plane": "x - 3"}, "section-never-met", "/plane", id="too far out"),
     pytest.param(
         {"scene": OSCILLATORS, "plane": "dot(x)^2 + x^2 - 1"}, "section-plane-contains", "/plane", id="a constant"

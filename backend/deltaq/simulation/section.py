@@ -339,7 +339,10 @@ def _joined(kept: list[Brackets]) -> list[Brackets]:
 
 
 def refined(found: Brackets, surface: Surface) -> Crossings:
-    """The root in each bracket to rounding: Newton's step where it stays inside, else the middle."""
+    """The root in each bracket to rounding: Newton's step where it stays inside, else the middle.
+
+    Where h changes its sign at a pole it has none: there it is farther from zero than at both ends.
+    """
     a, b, series = found.a.copy(), found.b.copy(), found.series
     theta = a + (b - a) * found.left / (found.left - found.right)
     for _ in range(MOST_ROOT_STEPS):
@@ -354,7 +357,9 @@ def refined(found: Brackets, surface: Surface) -> Crossings:
         if (change <= 4.0 * np.spacing(theta)).all():
             break
     rows, rates = series.at(theta)
-    return Crossings(found.motions, rows[:, -1], rows[:, :-1], surface.slopes(rows, rates)[1])
+    values, slopes = surface.slopes(rows, rates)
+    root = ~(np.abs(values - found.shift) > np.maximum(np.abs(found.left), np.abs(found.right)))
+    return Crossings(found.motions[root], rows[root, -1], rows[root, :-1], slopes[root])
 
 
 def path_of(problem: Problem, steps: Steps, most: int, cancelled: Flag) -> Floats:

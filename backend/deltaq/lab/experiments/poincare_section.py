@@ -17,11 +17,13 @@ import numpy as np
 from ...contract.experiments.poincare_section import PoincareSectionRequest
 from ...errors import Problem as Mistake
 from ...errors import RequestError
+from ...mechanics.requests import inside
 from ...model.modes import modes_of
 from ...simulation.integration import Flag
 from ...simulation.problem import Floats
 from ...simulation.rounding import rounded as rounded_to
 from ...simulation.section import path_of
+from ...simulation.service import require_no_event
 from ..charts.poincare_section import charts
 from ..experiment import Experiment
 from ..hybrid_orbits import LEAST, HybridMotions, clear_of_contacts
@@ -96,12 +98,15 @@ def _asked_of_hybrid(request: PoincareSectionRequest, subject: Subject, cancelle
     observables, problem = observables_of(request, subject), bounded(subject, MOST_STEPS)
     if modes is None:
         raise LookupError("the scene has neither impacts nor friction")
+    with inside("/scene"):
+        require_no_event(scene, problem)
     motions = HybridMotions(problem, modes, LEAST, cancelled)
     path = path_of_run(motions.run(problem.state))
     section = section_of(request, problem, observables, path)
     asked = _begun(request, FreeSubject(subject), section, path)
     seconds = period(scene) if section.is_driven else math.inf
     clear = clear_of_contacts(scene, observables, asked.states)
+    clear[: int(asked.has_own)] = True  # that has been looked at
     if not section.function.places:  # the time alone tells how long it takes to cross so often
         wanted = (request.crossings + request.skip + 1) * seconds
         motions = replace(motions, problem=replace(problem, t_end=min(problem.t_end, wanted)))
@@ -121,9 +126,9 @@ def _begun(request: PoincareSectionRequest, free: FreeSubject, section: Section,
         least = {"energy": significant(energy or 0.0), "least": significant(grid.lowest[1])}
         raise RequestError(Mistake("section-energy-unreachable", "/energy", parameters=least))
     values = section.function.jet.table(path)
-    scale = float((np.abs(values[:, 1:-1]) * np.abs(path[:, :-1])).sum(axis=1).max()) + float(
-        np.abs(values[:, -1]).max()
-    )
+    with np.errstate(invalid="ignore"):  # at a pole there is no size of h
+        sizes = (np.abs(values[:, 1:-1]) * np.abs(path[:, :-1])).sum(axis=1)
+    scale = sum(float(np.max(each, initial=0.0, where=np.isfinite(each))) for each in (sizes, np.abs(values[:, -1])))
     return _Asked(request, free, section, starts, states, has_own, energy, scale)
 
 
