@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 
 from ..errors import Problem, SceneError
 from .functions import Expr
+from .parts import parts
 
 Floats = NDArray[np.float64]
 
@@ -62,10 +63,9 @@ def _with_roots(outputs: Sequence[Expr]) -> list[Expr]:
 
     √x is positive, so that its absolute value, which costs nothing, keeps SymEngine from writing a power again.
     """
-    powers = {power for each in outputs for power in se.sympify(each).atoms(se.Pow)}
     roots = {
         power: se.Abs(se.sqrt(base)) ** (2 * exponent)
-        for power in powers
+        for power in parts(outputs, se.Pow)
         for base, exponent in [power.args]
         if exponent != HALF and (2 * exponent).is_Integer and not exponent.is_Integer
     }

@@ -15,6 +15,7 @@ from .constraints import ConstraintEquations
 from .disturbance import disturbed
 from .equations import Equations, equations
 from .functions import Expr
+from .parts import parts
 from .phase import PhaseSpace, phase_space
 from .pushes import Pushes, compiled_pushes
 from .recurrence_writer import recurrences_of
@@ -311,8 +312,7 @@ def _triangle(eqs: Equations) -> list[Expr]:
 def _switches(eqs: Equations) -> list[Expr]:
     """The differences of rates (and what else) on whose sign the forces depend."""
     rates = {eqs.symbols.rates[name] for name in eqs.symbols.free}
-    choices = {choice for force in eqs.forcing for choice in force.atoms(se.Piecewise)}
-    conditions = {condition for choice in choices for condition in choice.args[1::2]}
+    conditions = {condition for choice in parts(eqs.forcing, se.Piecewise) for condition in choice.args[1::2]}
     found = {condition.args[1] - condition.args[0] for condition in conditions if condition.args}
     distinct: list[Expr] = []
     for each in sorted((each for each in found if each.free_symbols & rates), key=str):
