@@ -65,7 +65,7 @@ GeneratorFamily = Literal["affine", "motions-of-space"]
 # What holds a part of a scene fixed: a length, another parameter of positions, the guide of a coordinate.
 HoldKind = Literal["length", "angle", "guide"]
 # What happens where a motion goes on.
-TransitionKind = Literal["impact", "rest", "release", "stick", "slip", "turn"]
+TransitionKind = Literal["impact", "rest", "release", "stick", "slip", "turn", "slide", "leave"]
 # Whether a load has a potential, by the curl of its generalized forces.
 CurlOutcome = Literal[
     "conservative",

@@ -9031,11 +9031,13 @@ export interface components {
         /**
          * TransitionAnswer
          * @description An event behind which the motion went on: an impact, rest, release, sticking, slipping, a turn of slipping.
+         *
+         *     Where a force jumps with a rate, a motion may slide along the zero of what the sign is taken of, and leave it.
          */
         TransitionAnswer: {
             /**
              * Name
-             * @description of the event, or of the load with friction
+             * @description of the event, of the load with friction, or what is zero while the motion slides along a kink
              * @example impact
              */
             name: string;
@@ -9049,7 +9051,7 @@ export interface components {
              * @description what happened
              * @enum {string}
              */
-            kind: "impact" | "rest" | "release" | "stick" | "slip" | "turn";
+            kind: "impact" | "rest" | "release" | "stick" | "slip" | "turn" | "slide" | "leave";
             /**
              * Loss
              * @description energy that it took, in J

@@ -128,9 +128,15 @@ class EventAnswer(Answer):
 
 
 class TransitionAnswer(Answer):
-    """An event behind which the motion went on: an impact, rest, release, sticking, slipping, a turn of slipping."""
+    """An event behind which the motion went on: an impact, rest, release, sticking, slipping, a turn of slipping.
 
-    name: str = Field(description="of the event, or of the load with friction", examples=["impact"])
+    Where a force jumps with a rate, a motion may slide along the zero of what the sign is taken of, and leave it.
+    """
+
+    name: str = Field(
+        description="of the event, of the load with friction, or what is zero while the motion slides along a kink",
+        examples=["impact"],
+    )
     time: float = Field(description="in seconds")
     kind: TransitionKind = Field(description="what happened")
     loss: float = Field(description="energy that it took, in J")

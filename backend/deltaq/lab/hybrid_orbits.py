@@ -29,7 +29,7 @@ from ..simulation.outcome import outcome_of
 from ..simulation.problem import Floats, Problem
 from ..simulation.run import Run, Steps
 from ..simulation.section import ZERO, Brackets, Surface, refined
-from ..simulation.transitions import begun
+from ..simulation.transitions import with_signs
 from .interpolation import quintics
 from .orbits import LARGEST, ORDER, PAUSE, TOLERANCE, Orbit, errors_between
 from .plane import Section
@@ -69,7 +69,7 @@ class HybridMotions:
             rates=tuple(start[n : 2 * n].tolist()),
         )
         method, times = get_method("taylor"), np.linspace(0.0, own.t_end, count + 1)
-        pieces = Audit(begun(own, self.modes).problem, method).before(TOLERANCE)
+        pieces = Audit(with_signs(own, self.modes), method).before(TOLERANCE)
         steps = Steps(size, TOLERANCE, pieces, order=ORDER, is_recorded=True, shaken=int(is_twin))
         return run_on(own, self.modes, method, times, self.cancelled, steps)
 

@@ -1,15 +1,18 @@
 """A scene whose equations change along the way, as one smooth model with its modes as parameters.
 
 Between events every sign is fixed, what sticks is held and what rests stays in contact. So each sign in the forces
-becomes a parameter σ (|u| = σ u, max(a, b) = (a + b + σ (a − b))/2), and each row a(q)·q̇ + b(q, t) = 0 that may be held
-by a reaction has a flag φ of 0 or 1:
+becomes a parameter σ (|u| = σ u, max(a, b) = (a + b + σ (a − b))/2), and each row w(q, q̇, t) = 0 that may be held has
+a flag φ of 0 or 1:
 
-    M q̈ = f + Aᵀ Φ λ,   φ (A q̈ + γ) + (1 − φ) λ = 0,   γ = d/dt of (a, b) along the motion, without q̈.
+    M q̈ = f + C Φ λ,   φ (A q̈ + γ) + (1 − φ) λ = 0,   A = ∂w/∂q̇,   γ = d/dt of w along the motion, without q̈.
 
+What a reaction holds has C = Aᵀ. A force that jumps with the sign of w, f = f₀ + σ f₁, may hold w = 0 itself, with
+that σ between −1 and 1 (Filippov's convex combination, Utkin's equivalent control): then C = −f₁ and λ = −σ.
 Where the scene has constraints of its own, their reactions stand in M q̈ = … as well, and M⁻¹ is that part of the
 inverse of [M Aᵀ; A 0] which keeps to them.
 The reaction λ of a coordinate that sticks is the friction force, that of a contact the normal force along ∂g/∂q.
-Source: Pfeiffer, Glocker, Multibody Dynamics with Unilateral Contacts, ch. 4–6.
+Sources: Pfeiffer, Glocker, Multibody Dynamics with Unilateral Contacts, ch. 4–6; Filippov, Differential Equations with
+Discontinuous Righthand Sides, §4; Utkin, Sliding Modes in Control and Optimization, ch. 2.
 """
 
 from __future__ import annotations
@@ -17,6 +20,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import lru_cache
+from itertools import combinations
 
 import symengine as se
 
@@ -28,30 +32,36 @@ from .equations import Equations, equations, guided_into
 from .functions import Expr, sign
 from .kinetic import ZERO, velocity
 from .model import Mechanics, Model, build
+from .piecewise import Smoothing, by_signs
 from .symbols import Symbols
 from .symengine_algebra import to_symengine
 
-ONE, HALF = se.Integer(1), se.Rational(1, 2)
+ONE = se.Integer(1)
+ENDING_STEPS = ("max", "min", "step", "heaviside")  # what only bends, or jumps with a place, ends steps if written so
 
 
 @dataclass(frozen=True)
 class Row:
-    """What a reaction may hold: w = a·q̇ + b (of a contact ġ), with d/dt w = a·q̈ + γ."""
+    """What may be held: w (of a contact ġ), with d/dt w = a·q̈ + γ, and the force `along` per λ, which takes `power`."""
 
     a: tuple[Expr, ...]
     rate: Expr
     bias: Expr
+    along: tuple[Expr, ...]
+    power: Expr
 
 
 @dataclass(frozen=True)
 class Modes:
     """The smooth model of a scene with events to go on behind, and what its parameters and watched values mean.
 
-    The parameters behind the scene's own are σ of every kink and every friction, then φ of every row (frictions, then
-    contacts), then an offset ε of every watched value. Watched are, in this order: the scene's other events, kinks
-    (σ s), frictions (σ w while slipping, F₀ − λ; then F₀ + λ), contacts (g, or λ at rest). `facts` gives for each row
-    a, w, γ; for each friction F₀; for each contact g, ∂g/∂t, e; the values s of all kinks; λ of every row; at last for
-    each friction the force R as it is, −σF while slipping and λ while sticking.
+    The parameters behind the scene's own are σ of every kink, friction and switch, then φ of every row (frictions,
+    switches, contacts), then an offset ε of every watched value. A switch is what changes its sign where a force jumps
+    with a rate. Watched are, in this order: the scene's other events, kinks (σ s), frictions and switches (σ w while
+    slipping, F₀ − λ; then F₀ + λ, with F₀ = 1 of a switch), contacts (g, or λ at rest). `facts` gives for each row a,
+    w, γ and the direction of its reaction; for each friction and switch F₀; for each contact g, ∂g/∂t, e; the values s
+    of all kinks; λ of every row; at last for each friction the force R as it is, −σF while slipping, λ while sticking.
+    `coupled` are pairs of rows of which a force has a product of signs, so that nothing tells what both hold together.
     """
 
     scene: Scene
@@ -60,17 +70,34 @@ class Modes:
     ending: tuple[int, ...]  # events of the scene that end the motion, by number
     contacts: tuple[int, ...]  # those that bounce
     frictions: tuple[str, ...]  # names of loads
-    kinks: int
+    kinks: tuple[str, ...]  # as the language of scenes has them, as the switches
+    switches: tuple[str, ...]
+    coupled: frozenset[tuple[int, int]]
+
+    @property
+    def bounded(self) -> int:
+        """How many rows have reactions with bounds: frictions, then switches."""
+        return len(self.frictions) + len(self.switches)
 
     @property
     def rows(self) -> int:
-        """How many rows may be held: frictions, then contacts."""
-        return len(self.frictions) + len(self.contacts)
+        """How many rows may be held: frictions, switches, then contacts."""
+        return self.bounded + len(self.contacts)
 
     @property
     def watched(self) -> int:
         """How many values are watched."""
-        return len(self.ending) + self.kinks + 2 * len(self.frictions) + len(self.contacts)
+        return len(self.ending) + len(self.kinks) + 2 * self.bounded + len(self.contacts)
+
+    def name_of(self, row: int) -> str:
+        """The name of a friction, or a switch as the language of scenes has it."""
+        return (*self.frictions, *self.switches)[row]
+
+    def name_of_watched(self, index: int) -> str:
+        """The same of a watched value, or a kink; contacts and the scene's other events have none here."""
+        place = index - len(self.ending)
+        twice = (name for name in (*self.frictions, *self.switches) for _ in range(2))
+        return (*self.kinks, *twice)[place]
 
 
 def modes_of(scene: Scene) -> Modes | None:
@@ -84,12 +111,10 @@ def modes_of(scene: Scene) -> Modes | None:
 @lru_cache(maxsize=64)
 def _made_once(mechanics: Mechanics) -> Modes | None:
     scene = mechanics.scene
-    bounces = any(event.bounces for event in scene.events)
-    frictions = frictions_of(scene)
-    if not (bounces or frictions or has_switches(scene)):
+    if not (any(event.bounces for event in scene.events) or frictions_of(scene) or has_switches(scene)):
         return None
     found = _Assembly(scene)
-    if not (bounces or frictions or found.kinks):
+    if not found.has_modes:
         return None
     equations_in_modes = found.equations
     return Modes(
@@ -99,7 +124,9 @@ def _made_once(mechanics: Mechanics) -> Modes | None:
         found.ending,
         found.contacts,
         tuple(part.source for part in found.frictions),
-        len(found.kinks),
+        tuple(map(found.signs.spelt, found.kinks)),
+        tuple(map(found.signs.spelt, found.switches)),
+        frozenset(found.coupled()),
     )
 
 
@@ -108,9 +135,12 @@ def _in_modes(scene: Scene) -> Equations:
 
 
 def has_switches(scene: Scene) -> bool:
-    """Whether max, min or step stands in a load of the scene."""
+    """Whether max, min, step, sign or a modulus stands in a load of the scene."""
+    return _has_words(scene, ("max", "min", "step", "heaviside", "sign", "abs"))
+
+
+def _has_words(scene: Scene, words: tuple[str, ...]) -> bool:
     texts = (part for load in scene.loads for part in vars(load).values())
-    words = ("max", "min", "step", "heaviside")
     return any(word in getattr(part, "text", str(part)) for part in texts for word in words)
 
 
@@ -125,22 +155,37 @@ class _Assembly:
         self.contacts = tuple(i for i, event in enumerate(scene.events) if event.bounces)
         self.ending = tuple(i for i, event in enumerate(scene.events) if not event.bounces)
         self.slips = tuple(self._slip(part, symbols) for part in self.frictions)
-        self.kinks: list[Expr] = []
         self._made = 0
-        self.sigmas_of_friction = [self._parameter() for _ in self.frictions]
-        self.sigmas: list[Expr] = []
-        self._forcing = [self._smooth(self._without_friction(each)) for each in self.plain.forcing]
-        self._forces = [self._smooth(self._without_friction(each)) for each in self.plain.forces]
-        self._power = self._smooth(self._without_friction(self.plain.power))
-        self.limits = [self._smooth(guided_into(scene, to_symengine(part.static, symbols))) for part in self.frictions]
-        self.flags = [self._parameter() for _ in (*self.frictions, *self.contacts)]
-        watched = len(self.ending) + len(self.kinks) + 2 * len(self.frictions) + len(self.contacts)
+        self._sigmas_of_friction = [self._parameter() for _ in self.frictions]
+        known = dict(zip(self.slips, self._sigmas_of_friction, strict=True))
+        self.signs = Smoothing(symbols, known, self._parameter)
+        forcing, forces = (
+            [self._smooth(each) for each in several] for several in (self.plain.forcing, self.plain.forces)
+        )
+        power = self._smooth(self.plain.power)
+        self.arrows = {name: tuple(map(self._smooth, each)) for name, each in self.plain.arrows.items()}
+        limits = [self.signs.smooth(guided_into(scene, to_symengine(part.static, symbols))) for part in self.frictions]
+        self.switches = self.signs.jumping(forcing)
+        self.kinks = [i for i in range(len(self.signs.sigmas)) if i not in self.switches]
+        own = [self.signs.sigmas[i] for i in self.switches]
+        self._forcing, self._forces = ([by_signs(each, own) for each in several] for several in (forcing, forces))
+        self._power = by_signs(power, own)
+        self.limits = [*limits, *([ONE] * len(self.switches))]
+        self.bounded = [*self._sigmas_of_friction, *own]
+        self.flags = [self._parameter() for _ in (*self.bounded, *self.contacts)]
+        watched = len(self.ending) + len(self.kinks) + 2 * len(self.bounded) + len(self.contacts)
         self.offsets = [self._parameter() for _ in range(watched)]
-        ordered = (*self.sigmas, *self.sigmas_of_friction, *self.flags, *self.offsets)
+        ordered = (*(self.signs.sigmas[i] for i in self.kinks), *self.bounded, *self.flags, *self.offsets)
         names = tuple(str(each) for each in ordered)
         self.symbols = _Extended(symbols.free, symbols.guided, (*symbols.parameters, *names), modes=ordered)
         self.rows = tuple(self._rows())
         self.reactions = self._reactions()
+
+    @property
+    def has_modes(self) -> bool:
+        """Whether motions follow more than one set of equations, and steps have to end where those change."""
+        bends = self.kinks and _has_words(self.scene, ENDING_STEPS)
+        return bool(self.contacts or self.frictions or self.switches or bends)
 
     def _parameter(self) -> Expr:
         self._made += 1
@@ -150,47 +195,24 @@ class _Assembly:
         c = (to_symengine(part.coordinate, symbols),)
         return guided_into(self.scene, velocity(c, symbols)[0] - to_symengine(part.surface_rate, symbols))
 
-    def _without_friction(self, expression: Expr) -> Expr:
-        """Signs of slipping as parameters, and nothing where it sticks."""
-        replaced = {sign(w): sigma for w, sigma in zip(self.slips, self.sigmas_of_friction, strict=True)}
-        return se.sympify(expression).subs(replaced) if replaced else expression
-
     def _smooth(self, expression: Expr) -> Expr:
-        """The expression with every kink of the state replaced by its sign, innermost first."""
-        count = len(self.plain.symbols.free)
-        states, rates = (set(self.plain.symbols.inputs[first : 2 * count]) for first in (0, count))
-        while True:
-            found = [
-                piece
-                for piece in sorted(expression.atoms(se.Piecewise), key=str)
-                if not any(part.atoms(se.Piecewise) for part in _branches(piece)) and _is_choice(piece)
-            ]
-            chosen = next((p for p in found if _is_switched(p, states, rates)), None)
-            if chosen is None:
-                return expression
-            expression = expression.subs({chosen: self._by_sign(chosen)})
-
-    def _by_sign(self, piece: Expr) -> Expr:
-        margin = _margin(piece)
-        above, below = _branches(piece)[:2]
-        slips = dict(zip(self.slips, self.sigmas_of_friction, strict=True))
-        if margin in slips or -margin in slips:
-            sigma = slips[margin] if margin in slips else -slips[-margin]
-        elif margin in self.kinks:
-            sigma = self.sigmas[self.kinks.index(margin)]
-        elif -margin in self.kinks:
-            sigma = -self.sigmas[self.kinks.index(-margin)]
-        else:
-            self.kinks.append(margin)
-            self.sigmas.append(self._parameter())
-            sigma = self.sigmas[-1]
-        return HALF * (above + below) + sigma * HALF * (above - below)
+        """The expression with signs of slipping, and then all others, as parameters."""
+        replaced = {sign(w): sigma for w, sigma in zip(self.slips, self._sigmas_of_friction, strict=True)}
+        return self.signs.smooth(se.sympify(expression).subs(replaced))
 
     def _rows(self) -> Iterator[Row]:
         for w in self.slips:
             yield self._row(w)
+        for index in self.switches:
+            yield self._row_of_switch(index)
         for index in self.contacts:
             yield self._row(self._change(self.plain.events[index]))
+
+    def _row_of_switch(self, index: int) -> Row:
+        """−f₁, and what it takes."""
+        sigma = self.signs.sigmas[index]
+        row = self._row(self.signs.values[index])
+        return replace(row, along=tuple(-f.diff(sigma) for f in self._forcing), power=-self._power.diff(sigma))
 
     def _change(self, g: Expr) -> Expr:
         """ġ = ∂g/∂q q̇ + ∂g/∂t"""
@@ -198,22 +220,35 @@ class _Assembly:
         moved = (g.diff(symbols.values[name]) * symbols.rates[name] for name in symbols.free)
         return sum(moved, g.diff(symbols.time))
 
+    def coupled(self) -> Iterator[tuple[int, int]]:
+        """See `Modes.coupled`."""
+        for i, j in combinations(range(len(self.bounded)), 2):
+            if any(force.diff(self.bounded[i]).diff(self.bounded[j]) != 0 for force in self._forcing):
+                yield i, j
+
     def _row(self, w: Expr) -> Row:
         symbols = self.plain.symbols
         a = tuple(w.diff(symbols.rates[name]) for name in symbols.free)
         bias = sum((w.diff(symbols.values[name]) * symbols.rates[name] for name in symbols.free), w.diff(symbols.time))
-        return Row(a, w, bias)
+        power = _dot(a, [symbols.rates[name] for name in symbols.free])
+        return Row(a, w, bias, a, power)
 
     def _held(self, expression: Expr) -> Expr:
-        """Without the friction of what sticks."""
-        flagged = zip(self.sigmas_of_friction, self.flags, strict=False)
+        """Without the sign of what is held."""
+        flagged = zip(self.bounded, self.flags, strict=False)
         return expression.subs({sigma: sigma * (ONE - flag) for sigma, flag in flagged})
 
+    def _between(self, expression: Expr) -> Expr:
+        """With the σ between its bounds of switches that are held."""
+        first = len(self.frictions)
+        held = zip(self.bounded[first:], self.flags[first:], self.reactions[first:], strict=False)
+        return expression.subs({sigma: sigma * (ONE - flag) - flag * reaction for sigma, flag, reaction in held})
+
     def _with_reactions(self, forces: Sequence[Expr]) -> tuple[Expr, ...]:
-        """f + Aᵀ Φ λ"""
+        """f + C Φ λ"""
         found = [self._held(force) for force in forces]
         for row, flag, reaction in zip(self.rows, self.flags, self.reactions, strict=True):
-            found = [each + a * flag * reaction for each, a in zip(found, row.a, strict=True)]
+            found = [each + c * flag * reaction for each, c in zip(found, row.along, strict=True)]
         return tuple(found)
 
     def _reactions(self) -> tuple[Expr, ...]:
@@ -223,7 +258,7 @@ class _Assembly:
         forcing = [self._held(force) for force in self._forcing]
         m, kept = len(self.rows), self.plain.constraints
         none = [ZERO] * len(kept.names)
-        columns = [*([*row.a, *none] for row in self.rows), [*forcing, *kept.accelerations]]
+        columns = [*([*row.along, *none] for row in self.rows), [*forcing, *kept.accelerations]]
         solved = [each[: len(forcing)] for each in _solve(self._augmented, columns)]
         flexibility = [[_dot(row.a, solved[j]) for j in range(m)] for row in self.rows]
         load = [-(_dot(row.a, solved[m]) + row.bias) for row in self.rows]
@@ -246,16 +281,17 @@ class _Assembly:
 
     @property
     def equations(self) -> Equations:
-        """M q̈ = f + Aᵀ Φ λ, with the power of the reactions, and what is watched as the events."""
-        power, rates = self._held(self._power), [self.plain.symbols.rates[name] for name in self.plain.symbols.free]
+        """M q̈ = f + C Φ λ, with the power of the reactions, and what is watched as the events."""
+        power = self._held(self._power)
         for row, flag, reaction in zip(self.rows, self.flags, self.reactions, strict=True):
-            power = power + flag * reaction * _dot(row.a, rates)
+            power = power + flag * reaction * row.power
         return replace(
             self.plain,
             symbols=self.symbols,
             forcing=self._with_reactions(self._forcing),
             forces=self._with_reactions(self._forces),
             power=power,
+            arrows={name: tuple(map(self._between, each)) for name, each in self.arrows.items()},
             events=tuple(self._watched()),
         )
 
@@ -263,14 +299,14 @@ class _Assembly:
         offsets = iter(self.offsets)
         for index in self.ending:
             yield self.plain.events[index] + next(offsets)
-        for sigma, kink in zip(self.sigmas, self.kinks, strict=True):
-            yield sigma * kink + next(offsets)
-        for k, w in enumerate(self.slips):
-            flag, reaction, limit = self.flags[k], self.reactions[k], self.limits[k]
-            slipping = self.sigmas_of_friction[k] * w + next(offsets)
+        for index in self.kinks:
+            yield self.signs.sigmas[index] * self.signs.values[index] + next(offsets)
+        for k, row in enumerate(self.rows[: len(self.bounded)]):
+            flag, reaction, limit = self.flags[k], self.reactions[k], self._between(self.limits[k])
+            slipping = self.bounded[k] * row.rate + next(offsets)
             yield (ONE - flag) * slipping + flag * (limit - reaction)
             yield (ONE - flag) + flag * (limit + reaction) + next(offsets)
-        for j, index in enumerate(self.contacts, len(self.frictions)):
+        for j, index in enumerate(self.contacts, len(self.bounded)):
             flag = self.flags[j]
             yield (ONE - flag) * (self.plain.events[index] + next(offsets)) + flag * self.reactions[j]
 
@@ -279,20 +315,20 @@ class _Assembly:
         """See `Modes.facts`."""
         found: list[Expr] = []
         for row in self.rows:
-            found += [*row.a, row.rate, row.bias]
-        found += [self.limits[k] for k in range(len(self.frictions))]
+            found += [*row.a, row.rate, row.bias, *row.along]
+        found += map(self._between, self.limits)
         for index in self.contacts:
             event, restitution = self.plain.events[index], self.scene.events[index].restitution
             coefficient = ZERO if restitution is None else to_symengine(restitution.tree, self.plain.symbols)
             found += [event, event.diff(self.plain.symbols.time), coefficient]
-        return [*found, *self.kinks, *self.reactions, *self._friction_forces()]
+        return [*found, *(self.signs.values[i] for i in self.kinks), *self.reactions, *self._friction_forces()]
 
     def _friction_forces(self) -> Iterator[Expr]:
         """R = φ λ − (1 − φ) σ F"""
         for k, part in enumerate(self.frictions):
-            force = self._smooth(guided_into(self.scene, to_symengine(part.force, self.plain.symbols)))
+            force = self.signs.smooth(guided_into(self.scene, to_symengine(part.force, self.plain.symbols)))
             flag = self.flags[k]
-            yield flag * self.reactions[k] - (ONE - flag) * self.sigmas_of_friction[k] * force
+            yield flag * self.reactions[k] - (ONE - flag) * self.bounded[k] * self._between(force)
 
 
 @dataclass(frozen=True)
@@ -307,33 +343,8 @@ class _Extended(Symbols):
         return (*own.inputs, *self.modes)
 
 
-def _branches(piece: Expr) -> tuple[Expr, ...]:
-    return tuple(piece.args[::2])
-
-
-def _is_choice(piece: Expr) -> bool:
-    """Whether its condition compares two numbers."""
-    return len(piece.args[1].args) == 2
-
-
-def _margin(piece: Expr) -> Expr:
-    """What is positive where the first branch holds."""
-    smaller, larger = piece.args[1].args
-    return larger - smaller
-
-
-def _is_switched(piece: Expr, states: set[Expr], rates: set[Expr]) -> bool:
-    """Whether a choice depends on the state; one that jumps with a rate may hold the motion and is left as it is."""
-    margin = _margin(piece)
-    if not margin.free_symbols & states:
-        return False
-    above, below = _branches(piece)[:2]
-    bend = se.expand(above - below)
-    return not margin.free_symbols & rates or bend in (se.expand(margin), se.expand(-margin), se.expand(2 * margin))
-
-
 def _solve(matrix: Sequence[Sequence[Expr]], columns: Sequence[Sequence[Expr]]) -> list[list[Expr]]:
-    """Solutions of a symmetric system for several right-hand sides, by elimination; M comes first in it."""
+    """Solutions of a system for several right-hand sides, by elimination; M comes first in it."""
     n = len(matrix)
     rows = [[*row] for row in matrix]
     rights = [[*column] for column in columns]

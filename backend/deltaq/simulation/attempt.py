@@ -22,7 +22,7 @@ from .problem import Floats, Problem
 from .refinement import FINER, LAST, Refinement
 from .run import Run, Steps, run
 from .side_by_side import side_by_side
-from .transitions import begun
+from .transitions import with_signs
 
 TRIES = 6
 ROUNDS = 4  # of shorter steps where a run was blind
@@ -135,7 +135,7 @@ class Integrator:
     @cached_property
     def audit(self) -> Audit:
         """What the method can see of the problem."""
-        return Audit(self.problem if self.modes is None else begun(self.problem, self.modes).problem, self.method)
+        return Audit(self.problem if self.modes is None else with_signs(self.problem, self.modes), self.method)
 
     def given(self, step: float) -> Attempt:
         """The run with the step given by the user, compared with a finer run that the audit finds nowhere blind."""

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from ..mechanics.jumps import MOST
 from .attempt import Attempt
 from .audit import GuideJump
 from .kernels.motion import HELD, TOO_LARGE
@@ -61,7 +62,8 @@ def _failed(
     steps = int(failed.result.steps + failed.result.rejected)
     if step is not None and failed.result.outcome == TOO_LARGE:
         return _grown(problem, method, step, told)
-    return outcome_of(int(failed.result.outcome), told | {"steps": steps})
+    where = {"name": failed.at[:MOST]} if failed.at else {}
+    return outcome_of(int(failed.result.outcome), told | {"steps": steps} | where)
 
 
 def _unseen(best: Attempt, step: float | None, told: dict[str, Number]) -> Outcome | None:

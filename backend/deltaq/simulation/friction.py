@@ -35,6 +35,6 @@ def friction_along(
         here = number == k
         problem = stretches[k].problem
         facts = modes.facts.table(problem.inputs(times[here], states[here]))
-        first = modes.rows * (problem.degrees + 2)
+        first = modes.rows * (2 * problem.degrees + 2)
         found[here] = np.hstack([facts[:, -count:], facts[:, first : first + count]])
     return {name: FrictionForce(found[:, k], found[:, count + k]) for k, name in enumerate(modes.frictions)}

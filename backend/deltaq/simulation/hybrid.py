@@ -18,11 +18,13 @@ from .integration import Flag
 from .kernels.loop import Result
 from .kernels.motion import FINE, MANY_EVENTS, STEP_LIMIT, UNSETTLED
 from .method import Method
-from .outcome import NO_DIRECTION, OUT_OF_REACH
+from .mode_state import ModeState
+from .outcome import CHATTERS, NO_DIRECTION, OUT_OF_REACH, SLIDES
 from .pieces import Pieces
 from .problem import Floats, Problem
 from .run import Mesh, Run, Steps, run
-from .transitions import ModeState, NoDirectionError, Transition, UnsettledError, begun, passed
+from .sliding import SlidingError
+from .transitions import NoDirectionError, Transition, UnsettledError, begun, passed
 
 MOST = 5000  # events in one run
 AT_ONCE = 50  # events at the same time, by rounding
@@ -97,7 +99,10 @@ def run_on(problem: Problem, modes: Modes, method: Method, times: Floats, cancel
     One that is `shaken` has its rates moved by a little more than rounding does, at its start and behind each event:
     impacts part neighbours, and two runs that round alike would know nothing of it.
     """
-    current = _shaken(begun(problem, modes), 0, steps.shaken)
+    try:
+        current = _shaken(begun(problem, modes), 0, steps.shaken)
+    except SlidingError as sliding:
+        return _not_begun(problem, times, steps, modes.name_of(sliding.row))
     width, count = current.problem.state.size, len(problem.reactions)
     record = _Record(np.zeros((times.size, width)), np.zeros((times.size, count)))
     record.out[0, : 2 * problem.degrees] = problem.state[: 2 * problem.degrees]
@@ -111,16 +116,37 @@ def run_on(problem: Problem, modes: Modes, method: Method, times: Floats, cancel
         _fill(record, times, event, problem.degrees)
         if event.index < len(modes.ending):
             return _ended(record, times, modes, _falling(current, event), found)
-        try:
-            current = _shaken(_next(current, event, record), len(record.meshes), steps.shaken)
-        except UnsettledError:
-            return _whole(record, times, UNSETTLED, event.time, found)
-        except NoDirectionError:
-            return _whole(record, times, NO_DIRECTION, event.time, found)
-        if len(record.transitions) >= MOST or record.at_once >= AT_ONCE or record.is_crowded(float(times[-1])):
-            return _whole(record, times, MANY_EVENTS, event.time, found)
+        behind = _behind(current, event, record, float(times[-1]))
+        if isinstance(behind, _End):
+            return _whole(record, times, behind.outcome, event.time, found, behind.at)
+        current = _shaken(behind, len(record.meshes), steps.shaken)
         if current.time >= times[-1]:
             return _whole(record, times, FINE, float(times[-1]), found)
+
+
+@dataclass(frozen=True)
+class _End:
+    """Why a motion does not go on behind an event, and what it happens at the zero of, if that says more."""
+
+    outcome: int
+    at: str = ""
+
+
+def _behind(current: ModeState, event: Event, record: _Record, span: float) -> ModeState | _End:
+    """The state behind an event, or why there is none that the run goes on from."""
+    try:
+        behind = _next(current, event, record)
+    except UnsettledError:
+        return _End(UNSETTLED)
+    except NoDirectionError:
+        return _End(NO_DIRECTION)
+    except SlidingError as sliding:
+        return _End(SLIDES, current.modes.name_of(sliding.row))
+    if record.is_crowded(span):
+        return _End(CHATTERS, current.modes.name_of_watched(event.index))
+    if len(record.transitions) >= MOST or record.at_once >= AT_ONCE:
+        return _End(MANY_EVENTS)
+    return behind
 
 
 def _problem(current: ModeState, taken: int) -> Problem:
@@ -211,7 +237,14 @@ def _ended(record: _Record, times: Floats, modes: Modes, event: Event, found: Ru
     return replace(ended, event=replace(event, index=modes.ending[event.index], state=state))
 
 
-def _whole(record: _Record, times: Floats, outcome: int, reached: float, found: Run) -> Run:
+def _not_begun(problem: Problem, times: Floats, steps: Steps, name: str) -> Run:
+    """The start alone, where switches do not tell how it goes on."""
+    states = problem.state[None, :]
+    held = Reactions(np.zeros((1, len(problem.reactions))), np.zeros(1)) if problem.reactions else None
+    return Run(times[:1], states, Result(SLIDES, 1, 0, 0, 0, 0.0), 1.0, 0.0, steps, reactions=held, at=name)
+
+
+def _whole(record: _Record, times: Floats, outcome: int, reached: float, found: Run, at: str = "") -> Run:
     """All stretches as one run."""
     count = record.filled
     result = Result(outcome, count, record.steps, record.rejected, record.evaluations, reached)
@@ -226,4 +259,5 @@ def _whole(record: _Record, times: Floats, outcome: int, reached: float, found: 
         transitions=tuple(record.transitions),
         reactions=Reactions(record.held[:count], np.zeros(count)) if record.held.size else None,
         meshes=tuple(record.meshes),
+        at=at,
     )

@@ -27,7 +27,7 @@ from .kernels.motion import (
 
 Number: TypeAlias = str | int | float
 # No kernel says so: of runs that go on behind events; of those whose steps are too short to come anywhere.
-NO_DIRECTION, OUT_OF_REACH = UNSETTLED + 1, UNSETTLED + 2
+NO_DIRECTION, OUT_OF_REACH, SLIDES, CHATTERS = (UNSETTLED + k for k in range(1, 5))
 
 JUDGED = frozenset({"ok", "event", "stopped", "guide_jumps", "horizon_reached", "tolerance_missed"})
 
@@ -67,6 +67,8 @@ _WORDS: Mapping[int, tuple[Status, str]] = MappingProxyType(
         UNSETTLED: ("unresolved", "contacts_at_once"),
         NO_DIRECTION: ("unresolved", "contact_without_direction"),
         OUT_OF_REACH: ("step_limit", "out_of_reach"),
+        SLIDES: ("unresolved", "slides_along_kinks"),
+        CHATTERS: ("unresolved", "switches_to_and_fro"),
     }
 )
 

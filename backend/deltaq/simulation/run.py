@@ -62,7 +62,8 @@ class Run:
     A state is (q, q̇) or, where power is fed in, (q, q̇, ∫P dt). `event` is what ended it, if an event did; else
     `approaches` tell how close it came to each of the scene's events. `held` is where friction holds it. `mesh_times`,
     shape (mesh,), and `mesh_states` (q, q̇), shape (mesh, 2n), are the ends of its steps, or of every `stride`-th,
-    where they were recorded. `transitions` are the events behind which it went on.
+    where they were recorded. `transitions` are the events behind which it went on; `at` names the switching function
+    at whose zero it could not.
     """
 
     times: Floats
@@ -80,6 +81,7 @@ class Run:
     reactions: Reactions | None = None  # where there are constraints
     transitions: tuple[Transition, ...] = ()
     meshes: tuple[Mesh, ...] = ()
+    at: str = ""
 
     @property
     def is_complete(self) -> bool:

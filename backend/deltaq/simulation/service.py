@@ -32,6 +32,8 @@ from .event import event_values
 from .friction import friction_along
 from .kernels.compiler import MACHINE, MachineCodeNeededError, interpreted, soonest
 from .library import ENSEMBLES, get_method, method_ids
+from .mode_state import TOUCHING
+from .observation import observed
 from .outcome import Outcome
 from .problem import Floats, Problem, Released
 from .request import Request, read_request
@@ -39,7 +41,7 @@ from .rounding import short
 from .run import Steps
 from .run import run as one_run
 from .trajectory import Trajectory
-from .transitions import NUDGE, TOUCHING, NoDirectionError, UnsettledError, begun
+from .transitions import NUDGE, NoDirectionError, UnsettledError, begun
 
 ANGLES = frozenset({"rad", "1", "°", "deg"})
 # Seconds for what is interpreted: where one waits, where others wait, too, and where that is quicker than compiling.
@@ -103,11 +105,12 @@ def _simulated(request: Request, choice: Choice, problem: Problem, compile_time:
             with_error="error" in request.include,
         )
     states = np.hstack([trajectory.values, trajectory.rates])
+    modes = modes_of(request.scene)
     with inside("/scene"):  # where something that is drawn has no value at all
-        seen = problem.model.observe(problem.inputs(trajectory.times, states))
+        seen = observed(problem, modes, trajectory.times, states, trajectory.stretches)
     watts = power(problem, trajectory.times, states, trajectory.stretches)
     known, seen = _finite(trajectory, seen, watts)
-    modes, moved = modes_of(request.scene), np.hstack([known.values, known.rates])
+    moved = np.hstack([known.values, known.rates])
     frictions = friction_along(modes, known.times, moved, known.stretches) if modes else {}
     return answer(request, choice, problem, known, seen, compile_time, frictions)
 

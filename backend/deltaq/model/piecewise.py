@@ -1,0 +1,141 @@
+"""Signs in place of pieces: what forces that bend or jump are while the argument of each condition keeps its sign.
+
+A piece f₊ where s > 0, f₋ where s < 0 is (f₊ + f₋)/2 + σ (f₊ − f₋)/2 with σ = sign s. On s = 0 any σ from −1 to 1 is
+one of Filippov's values. A force only bends there if what σ is multiplied by vanishes with s.
+Source: Filippov, Differential Equations with Discontinuous Righthand Sides, §4.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Mapping, Sequence
+
+import symengine as se
+
+from .functions import Expr
+from .parts import parts
+from .symbols import Symbols
+
+HALF = se.Rational(1, 2)
+
+
+class Smoothing:
+    """Pieces of expressions replaced by signs, which `make` makes; those in `known` have theirs already.
+
+    `values[i]` is the switching function whose sign `sigmas[i]` is.
+    """
+
+    def __init__(self, symbols: Symbols, known: Mapping[Expr, Expr], make: Callable[[], Expr]) -> None:
+        count = len(symbols.free)
+        self.values: list[Expr] = []
+        self.sigmas: list[Expr] = []
+        self._states, self._rates = (set(symbols.inputs[first : 2 * count]) for first in (0, count))
+        self._symbols, self._known, self._make = symbols, known, make
+
+    def smooth(self, expression: Expr) -> Expr:
+        """The expression with every kink of the state replaced by its sign, innermost first."""
+        while True:
+            found = [
+                piece
+                for piece in sorted(parts([expression], se.Piecewise), key=str)
+                if not parts(_branches(piece), se.Piecewise) and _is_choice(piece)
+            ]
+            chosen = next((p for p in found if self._is_switched(_margin(p))), None)
+            if chosen is None:
+                return expression
+            expression = expression.subs({chosen: self._by_sign(chosen)})
+
+    def _is_switched(self, margin: Expr) -> bool:
+        """Whether a choice depends on the state; one by what jumps itself is left as it is."""
+        if not margin.free_symbols & self._states:
+            return False
+        signs = [*((value, sigma) for value, sigma in self._known.items()), *zip(self.values, self.sigmas, strict=True)]
+        return not any(sigma in margin.free_symbols and self._jumps([margin], sigma, value) for value, sigma in signs)
+
+    def _by_sign(self, piece: Expr) -> Expr:
+        sigma = self._sign(_margin(piece))
+        above, below = _branches(piece)[:2]
+        return HALF * (above + below) + sigma * HALF * (above - below)
+
+    def _sign(self, margin: Expr) -> Expr:
+        margin = _without_number(margin)
+        for way in (1, -1):
+            if way * margin in self._known:
+                return way * self._known[way * margin]
+            if way * margin in self.values:
+                return way * self.sigmas[self.values.index(way * margin)]
+        self.values.append(margin)
+        self.sigmas.append(self._make())
+        return self.sigmas[-1]
+
+    def jumping(self, expressions: Iterable[Expr]) -> list[int]:
+        """Which of the switching functions depend on rates, and have one of the expressions jump at their zeros."""
+        parts = list(expressions)
+        return [
+            i
+            for i, (sigma, value) in enumerate(zip(self.sigmas, self.values, strict=True))
+            if value.free_symbols & self._rates and self._jumps(parts, sigma, value)
+        ]
+
+    def _jumps(self, expressions: Iterable[Expr], sigma: Expr, value: Expr) -> bool:
+        return any(not _vanishes(_jump(each, sigma), value, self._rates) for each in expressions)
+
+    def spelt(self, index: int) -> str:
+        """What has the zeros of a switching function, in the language of scenes."""
+        symbols = self._symbols
+        names = {symbol: se.Symbol(name) for name, symbol in symbols.values.items() if name != "pi"}
+        rates = {symbol: se.Symbol(f"dot({name})") for name, symbol in symbols.rates.items()}
+        inner = {
+            sigma: se.Symbol(f"sign({self.spelt(i)})")
+            for i, sigma in enumerate(self.sigmas)
+            if i != index and sigma in self.values[index].free_symbols
+        }
+        value = se.expand(_without_number(self.values[index]).subs({**names, **rates, **inner}))
+        text = str(value)
+        return (str(se.expand(-value)) if text.startswith("-") else text).replace("**", "^")
+
+
+def by_signs(expression: Expr, sigmas: Sequence[Expr]) -> Expr:
+    """The expression made linear in each of the signs, the same where these are −1 or 1."""
+    for sigma in sigmas:
+        if expression.diff(sigma).diff(sigma) != 0:
+            above, below = (expression.subs({sigma: se.Integer(way)}) for way in (1, -1))
+            expression = HALF * (above + below) + sigma * HALF * (above - below)
+    return expression
+
+
+def _jump(expression: Expr, sigma: Expr) -> Expr:
+    """What an expression differs by on both sides of s = 0."""
+    above, below = (expression.subs({sigma: se.Integer(way)}) for way in (1, -1))
+    return above - below
+
+
+def _vanishes(jump: Expr, value: Expr, rates: set[Expr]) -> bool:
+    """Whether a jump vanishes where a switching function is zero, as far as it is linear in a rate."""
+    if se.expand(jump) == 0:
+        return True
+    for rate in sorted(value.free_symbols & rates, key=str):
+        slope = value.diff(rate)
+        if rate not in slope.free_symbols:
+            return bool(se.expand(jump.subs({rate: rate - value / slope})) == 0)
+    return bool(jump.subs({value: se.Integer(0)}) == 0)
+
+
+def _without_number(value: Expr) -> Expr:
+    """A product without the size of its number."""
+    number = value.args[0] if isinstance(value, se.Mul) else se.Integer(1)
+    return value / abs(number) if isinstance(number, (se.Integer, se.Rational)) else value
+
+
+def _branches(piece: Expr) -> tuple[Expr, ...]:
+    return tuple(piece.args[::2])
+
+
+def _is_choice(piece: Expr) -> bool:
+    """Whether its condition compares two numbers."""
+    return len(piece.args[1].args) == 2
+
+
+def _margin(piece: Expr) -> Expr:
+    """What is positive where the first branch holds."""
+    smaller, larger = piece.args[1].args
+    return larger - smaller

@@ -1,0 +1,150 @@
+"""A state in a mode: which signs are fixed and which rows are held, and what follows at that state."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from functools import cached_property
+
+import numpy as np
+
+from ..model.modes import Modes
+from .problem import Floats, Problem
+
+TOUCHING = 1e-11  # a gap, relative to the coordinates
+
+
+@dataclass(frozen=True)
+class Mode:
+    """Signs of kinks, of slipping and of switches (−1 or 1), flags of rows (1: held), offsets of watched values."""
+
+    kinks: tuple[float, ...]
+    slips: tuple[float, ...]
+    flags: tuple[float, ...]
+    offsets: tuple[float, ...]
+
+    @property
+    def parameters(self) -> tuple[float, ...]:
+        """As the model reads them, behind the scene's own."""
+        return (*self.kinks, *self.slips, *self.flags, *self.offsets)
+
+
+@dataclass(frozen=True)
+class Facts:
+    """What is known at a state.
+
+    Of the rows `a` and the directions of their reactions `along`, shape (rows, n) each, the rates `w`, γ in `bias`, and
+    λ in `reactions`, shape (rows,) each; F₀ in `limits`, shape (frictions and switches,); `gaps` and e in
+    `restitutions`, shape (contacts,); values of `kinks`, shape (kinks,).
+    """
+
+    a: Floats
+    along: Floats
+    w: Floats
+    bias: Floats
+    limits: Floats
+    gaps: Floats
+    restitutions: Floats
+    kinks: Floats
+    reactions: Floats
+
+
+@dataclass(frozen=True)
+class ModeState:
+    """A state (q, q̇) at a time, in a mode, of a problem in modes; `q` and `v` have shape (n,)."""
+
+    problem: Problem
+    modes: Modes
+    time: float
+    q: Floats
+    v: Floats
+    mode: Mode
+
+    @property
+    def row(self) -> Floats:
+        """Inputs of the model's functions: shape (1, inputs)."""
+        own = self.problem.parameters[: len(self.problem.parameters) - len(self.mode.parameters)]
+        return np.array([[*self.q, *self.v, self.time, *own, *self.mode.parameters]])
+
+    @cached_property
+    def facts(self) -> Facts:
+        """The rows with the flags of the mode."""
+        n, rows, bounded = len(self.q), self.modes.rows, self.modes.bounded
+        kinks = len(self.modes.kinks)
+        found = self.modes.facts.table(self.row)[0]
+        parts = found[: rows * (2 * n + 2)].reshape(rows, 2 * n + 2)
+        rest = found[rows * (2 * n + 2) :]
+        gaps = rest[bounded : bounded + 3 * len(self.modes.contacts)].reshape(-1, 3)
+        end = bounded + gaps.size
+        return Facts(
+            parts[:, :n], parts[:, n + 2 :], parts[:, n], parts[:, n + 1], rest[:bounded], gaps[:, 0], gaps[:, 2],
+            rest[end : end + kinks], rest[end + kinks : end + kinks + rows],
+        )  # fmt: skip
+
+    @cached_property
+    def mass(self) -> Floats:
+        """M, shape (n, n)."""
+        n = len(self.q)
+        packed = self.problem.model.motion.table(self.row)[0]
+        found, places = np.zeros((n, n)), np.tril_indices(n)
+        found[places] = packed[: len(places[0])]
+        return found + np.tril(found, -1).T
+
+    @cached_property
+    def kept(self) -> tuple[Floats, Floats]:
+        """A, shape (m, n), and γ, shape (m,), of the scene's constraints."""
+        n, layout = len(self.q), self.problem.model.layout
+        m, first = len(layout.multipliers), n * (n + 1) // 2 + n + (n + 1 if layout.is_powered else 0)
+        packed = self.problem.model.motion.table(self.row)[0]
+        return packed[first : first + m * n].reshape(m, n), packed[first + m * n : first + m * n + m]
+
+    def moved_by(self, forces: Floats, bends: Floats | None = None) -> Floats:
+        """x of M x = forces + Aᵀλ, A x = bends (0 if not given): what forces, or impulses, do to q̈, or to q̇.
+
+        `forces` and what is returned have shape (n,), `bends` shape (m,).
+        """
+        rows, count = self.kept[0], len(self.kept[0])
+        if not count:
+            return np.asarray(np.linalg.solve(self.mass, forces))
+        matrix = np.block([[self.mass, rows.T], [rows, np.zeros((count, count))]])
+        right = np.concatenate([forces, np.zeros(count) if bends is None else bends])
+        return np.asarray(np.linalg.lstsq(matrix, right, rcond=None)[0][: len(self.q)])
+
+    @cached_property
+    def accelerations(self) -> Floats:
+        """q̈ in this mode, shape (n,)."""
+        n = len(self.q)
+        packed = self.problem.model.motion.table(self.row)[0]
+        return self.moved_by(packed[n * (n + 1) // 2 : n * (n + 1) // 2 + n], self.kept[1])
+
+    @property
+    def touching(self) -> list[int]:
+        """The contacts that are closed, but for rounding."""
+        return [j for j, gap in enumerate(self.facts.gaps) if gap <= TOUCHING * self.scale(j) * size_of(self.q)]
+
+    def scale(self, contact: int) -> float:
+        """How far a gap changes with the coordinates, at most; 1 where it does not."""
+        return float(np.abs(self.facts.a[self.modes.bounded + contact]).max()) or 1.0
+
+    @property
+    def watched(self) -> Floats:
+        """The values that are positive as long as the mode lasts, with its offsets: shape (watched,)."""
+        return np.asarray(self.problem.model.events.table(self.row)[0])  # type: ignore[union-attr]
+
+    @property
+    def kinetic(self) -> float:
+        """½ q̇ᵀ M q̇, up to what does not change at an impact."""
+        return float(0.5 * self.v @ self.mass @ self.v)
+
+    def with_flags(self, flags: tuple[float, ...]) -> ModeState:
+        """The same state with other rows held."""
+        return replace(self, mode=replace(self.mode, flags=flags))
+
+    def pushed(self, row: int, change: float) -> ModeState:
+        """The state behind an impulse along a row that changes its rate w by so much."""
+        along = self.moved_by(self.facts.a[row])
+        return replace(self, v=self.v + along * (change / (self.facts.a[row] @ along)))
+
+
+def size_of(values: Floats) -> float:
+    """The largest absolute value, 1 at least; `values` has shape (n,)."""
+    return max(1.0, float(np.max(np.abs(values), initial=0.0)))

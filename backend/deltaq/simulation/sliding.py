@@ -1,0 +1,136 @@
+"""Which switches hold a motion: where a force jumps with the sign of w(q, q̇, t), w = 0 may be crossed, left or kept.
+
+With σ = sign w the rate of w is ẇ = n − B σ, B = A M⁻¹ C of the rows at zero. A single one with B > 0 is driven back
+from both sides as long as |n| ≤ B: it is kept, with σ = n/B. Otherwise the motion goes through, or leaves to where it
+is driven. Several go on in one way alone if all principal minors of B are positive: σ then is the only solution of
+ẇ = 0 where |σ| < 1, ẇ ≥ 0 where σ = 1, ẇ ≤ 0 where σ = −1.
+Sources: Filippov, Differential Equations with Discontinuous Righthand Sides, §4; Cottle, Pang, Stone, The Linear
+Complementarity Problem, §3.3 (matrices whose principal minors are positive).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+from itertools import combinations, product
+
+import numpy as np
+
+from .mode_state import ModeState
+from .problem import Floats
+
+SLACK = 1e-12  # relative, of a friction that holds
+AGAINST = 1e-9  # of the jump of ẇ: so much against its side a row at zero may be driven by rounding
+MOST_TOGETHER = 5  # rows at zero of which all ways to go on are tried
+
+
+class SlidingError(Exception):
+    """Switches at zero together that do not tell how the motion goes on; `row` is one of them."""
+
+    def __init__(self, row: int) -> None:
+        super().__init__(row)
+        self.row = row
+
+
+def draws(current: ModeState, row: int) -> bool:
+    """Whether the jump at a row drives it back to zero from both sides: B > 0."""
+    facts = current.facts
+    return bool(facts.a[row] @ current.moved_by(facts.along[row]) > 0.0)
+
+
+def rate_of(current: ModeState, row: int) -> float:
+    """ẇ of a row in the mode of a state."""
+    return float(current.facts.a[row] @ current.accelerations + current.facts.bias[row])
+
+
+def on_side(current: ModeState, row: int, side: float) -> ModeState:
+    """The same state with a row that is not held on one side of zero, or (0) held."""
+    mode = current.mode
+    slips = [*mode.slips]
+    slips[row] = side or slips[row]
+    flags = [*mode.flags]
+    flags[row] = float(side == 0.0)
+    return replace(current, mode=replace(mode, slips=tuple(slips), flags=tuple(flags)))
+
+
+def side_left_to(current: ModeState, row: int, *, has_come: bool) -> float:
+    """The side to which a row leaves zero that is not kept there.
+
+    One that has come to zero goes through if the other side takes it. From rest at zero, where both would, it is the
+    side that the mean of both drives to.
+    """
+    old = current.mode.slips[row]
+    rates = {side: rate_of(on_side(current, row, side), row) for side in (-old, old)}
+    leaving = [side for side, rate in rates.items() if side * rate > 0.0]
+    if len(leaving) == 1 or (leaving and has_come):
+        return leaving[0]
+    return float(np.sign(sum(rates.values()))) or old
+
+
+def unkept(current: ModeState, held: Sequence[bool]) -> int | None:
+    """The first switch held by none of the forces between both sides, though it should be."""
+    first, facts = len(current.modes.frictions), current.facts
+    for row in range(first, current.modes.bounded):
+        if held[row] and not (
+            np.isfinite(facts.reactions[row]) and (draws(current, row) or facts.reactions[row] == 0.0)
+        ):
+            return row
+    return None
+
+
+def settled(current: ModeState, at_zero: Sequence[int]) -> ModeState:
+    """The state in the only mode in which frictions and switches at zero go on.
+
+    Raises SlidingError if there is none, or more than can be told apart.
+    """
+    if not current.modes.switches or not at_zero:
+        return current
+    if not _is_consistent(current, at_zero):
+        current = _tried(current, at_zero)
+    held = [row for row in at_zero if current.mode.flags[row]]
+    switch = next((row for row in held if row >= len(current.modes.frictions)), None)
+    if switch is not None and len(held) > 1:
+        is_coupled = any(pair in current.modes.coupled for pair in combinations(held, 2))
+        if is_coupled or not _is_unique(current, held):
+            raise SlidingError(switch)
+    return current
+
+
+def _tried(current: ModeState, at_zero: Sequence[int]) -> ModeState:
+    if len(at_zero) > MOST_TOGETHER:
+        raise SlidingError(at_zero[-1])
+    for sides in product((0.0, 1.0, -1.0), repeat=len(at_zero)):
+        trial = current
+        for row, side in zip(at_zero, sides, strict=True):
+            trial = on_side(trial, row, side)
+        if _is_consistent(trial, at_zero):
+            return trial
+    raise SlidingError(at_zero[-1])
+
+
+def _is_consistent(current: ModeState, at_zero: Sequence[int]) -> bool:
+    """Whether what is held is within its bounds, and what is not leaves to its side, or stays."""
+    facts = current.facts
+    for row in at_zero:
+        reaction, limit = float(facts.reactions[row]), float(facts.limits[row])
+        if current.mode.flags[row]:
+            if not abs(reaction) <= limit * (1.0 + SLACK):
+                return False
+        elif not current.mode.slips[row] * rate_of(current, row) >= -AGAINST * _jump(current, row):
+            return False
+    return True
+
+
+def _jump(current: ModeState, row: int) -> float:
+    """How much of ẇ there is to compare with."""
+    facts = current.facts
+    return abs(float(facts.a[row] @ current.moved_by(facts.along[row]))) + abs(float(facts.bias[row]))
+
+
+def _is_unique(current: ModeState, held: Sequence[int]) -> bool:
+    """Whether all principal minors of B are positive."""
+    facts = current.facts
+    moved: Floats = np.array([current.moved_by(facts.along[row]) for row in held])
+    matrix = facts.a[list(held)] @ moved.T
+    sizes = (combinations(range(len(held)), count) for count in range(1, len(held) + 1))
+    return all(np.linalg.det(matrix[np.ix_(rows, rows)]) > 0.0 for several in sizes for rows in several)
