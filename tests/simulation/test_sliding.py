@@ -284,3 +284,63 @@ def test_several_that_add_up_are_followed() -> None:
     assert found.values[-1] == pytest.approx([8.0 + 4.0 / 3.0, 6.0 + 4.0 / 3.0, 0.5], abs=1e-9)
     assert np.abs(found.rates[-1]).max() < 1e-14
     assert np.ptp(_energy(found) - found.work) < 1e-9
+
+
+@FEW
+def test_where_no_rate_changes_what_the_sign_is_of_nothing_is_held(method: str) -> None:
+    """sign(x ẋ) brakes what moves away from the middle, and is gone through there, where its slope in ẋ is zero."""
+    found = motion(moving(["-x - F*sign(x*dot(x))"], [(1.0, 0.0)], F=0.3), 20.0, method)
+    assert (found.outcome.status, found.transitions) == ("ok", ())
+    assert np.ptp(_energy(found) - found.work) < 1e-9
+    middle = math.acos(-0.3 / 0.7)  # about 0.3 with x = 0.3 + 0.7 cos t, then about −0.3
+    t = found.times[found.times < middle]
+    assert found.values[: len(t), 0] == pytest.approx(0.3 + 0.7 * np.cos(t), abs=1e-8)
+
+
+@FEW
+def test_a_rate_is_kept_that_is_no_linear_function(method: str) -> None:
+    """ẋ² = 1 is reached from rest, after what cos t + 2 takes for it, and kept: |cos t| < 2."""
+    found = motion(moving(["cos(t) - F*sign(dot(x)^2 - 1)"], [(0.0, 0.0)], F=2.0), 10.0, method)
+    assert told(found) == [("slide", "1 - dot(x)^2")]
+    (slide,) = found.transitions
+    assert math.sin(slide.time) + 2.0 * slide.time == pytest.approx(1.0, abs=1e-9)
+    late = found.times >= slide.time
+    reached = 1.0 - math.cos(slide.time) + slide.time**2
+    assert found.values[late, 0] == pytest.approx(reached + found.times[late] - slide.time, abs=1e-8)
+
+
+@pytest.mark.parametrize("method", ["dop853", "radau-5", "rk4", "gauss-6"])
+def test_constraints_keep_what_slides_as_angles_do(method: str) -> None:
+    """A pendulum with friction in its hinge: as an angle, and as x and y on a circle, where the sign is of a moment."""
+    turn = "sign(x*dot(y) - y*dot(x))"
+    weight = {"kind": "gravity", "name": "weight", "acceleration": ["0", "-g"]}
+    hinge = {"kind": "force", "name": "hinge", "at": "p", "force": [f"c*y*{turn}", f"-c*x*{turn}"]}
+    values = {"m": 1.0, "g": 9.81, "c": 2.0}
+    free = document({"x": (1.0, 0.0), "y": (0.0, 0.0)}, values, {"p": ("m", ["x", "y"])}, [weight, hinge])
+    free["constraints"] = [{"kind": "equation", "name": "circle", "equation": "x^2 + y^2 = 1"}]
+    moment = {"kind": "moment", "name": "hinge", "angle": "q", "moment": "-c*sign(dot(q))"}
+    angle = document({"q": (math.pi / 2.0, 0.0)}, values, {"p": ("m", ["sin(q)", "-cos(q)"])}, [weight, moment])
+    found, other = (motion(asked, 8.0, method, 1e-9) for asked in (free, angle))
+    assert [kind for kind, _ in told(found)] == [kind for kind, _ in told(other)] == ["slide"]
+    assert found.transitions[0].time == pytest.approx(other.transitions[0].time, abs=1e-8)
+    assert found.values[-1, 0] == pytest.approx(math.sin(other.values[-1, 0]), abs=1e-8)
+    assert abs(found.values[-1, 0]) * 9.81 < 2.0  # where the weight is too weak for the hinge
+
+
+def test_coupled_masses_slide_in_each_of_their_signs_as_with_dry_friction() -> None:
+    """Three links with a brake at each angle, so that what holds one loads the others."""
+    links = range(3)
+    places = [[" + ".join(f"{f}(p{i})" for i in range(k + 1)) for f in ("sin", "-cos")] for k in links]
+    bodies = {f"b{k}": ("m", [x, y.replace("+ -", "- ")]) for k, (x, y) in zip(links, places, strict=True)}
+    weight = {"kind": "gravity", "name": "weight", "acceleration": ["0", "-g"]}
+    starts = {f"p{k}": (0.6 + 0.3 * k, 0.0) for k in links}
+    signs = [{"kind": "moment", "name": f"c{k}", "angle": f"p{k}", "moment": f"-c*sign(dot(p{k}))"} for k in links]
+    rubs = [{"kind": "friction", "name": f"c{k}", "coordinate": f"p{k}", "force": "c"} for k in links]
+    values = {"m": 1.0, "g": 9.81, "c": 2.5}
+    one, other = (motion(document(starts, values, bodies, [weight, *loads]), 6.0) for loads in (signs, rubs))
+    names = {"stick": "slide", "slip": "leave"}
+    told_there = [(names[each.kind], each.time) for each in other.transitions if each.kind in names]
+    assert len(told_there) > 6
+    assert [each.kind for each in one.transitions] == [kind for kind, _ in told_there]
+    assert [each.time for each in one.transitions] == pytest.approx([time for _, time in told_there], abs=1e-9)
+    assert one.values[-1] == pytest.approx(other.values[-1], abs=1e-9)

@@ -26,6 +26,7 @@ LOWEST = 1e-12  # the highest rebound that is taken for rest, relative to the co
 LATE = 1e-6  # s; so much behind the zero of a gap its event is found at most
 ROUNDING = 1e-15
 HARDLY = 1e-13  # of a rate of slipping
+TINY = 1e-9  # of the rates: what rounding left at an event is no more
 NOTHING = 1e-12  # of what an impulse would do without constraints: they take all of it
 NUDGE = 1e-6  # of the coordinates: for slopes by differences, which are right to about as much
 ALONG = 1e-9  # of a row: what is left of it besides the rows of contacts
@@ -114,9 +115,12 @@ def _come_or_gone(current: ModeState, row: int) -> tuple[ModeState, str, str]:
 
 
 def _without_rate(current: ModeState, row: int) -> ModeState:
-    """The state with what rounding left of a rate taken away; where no impulse changes it, as it is."""
+    """The state with what rounding left of a rate taken away; where that is not done by a tiny impulse, as it is."""
     along = current.facts.a[row]
-    return current.pushed(row, -float(current.facts.w[row])) if along @ current.moved_by(along) > 0.0 else current
+    if not along @ current.moved_by(along) > 0.0:
+        return current
+    pushed = current.pushed(row, -float(current.facts.w[row]))
+    return pushed if np.abs(pushed.v - current.v).max() <= TINY * size_of(current.v) else current
 
 
 def _met(current: ModeState, contact: int) -> tuple[ModeState, str, str]:
