@@ -89,8 +89,8 @@ def test_a_step_is_judged_and_the_next_one_chosen(order: int, width: int, behind
         slopes = [mp.mpf(each) for each in series.states[t.SLOPES, :judged]]
         apart = [abs(s - mp.mpf(0.5 * THETA) * one) / w for s, one, w in zip(slopes, c[1], scale, strict=True)]
         last, before = (max(abs(a) / w for a, w in zip(c[k], scale, strict=True)) for k in (order, order - 1))
-        radius = min((mp.mpf(TOLERANCE) / each) ** (1 / mp.mpf(k)) for each, k in ((last, order), (before, order - 1)))
-        wanted = UNIT * radius * mp.exp(mp.mpf(-7) / 10 / (order - 1))
+        radius = min(each ** (-1 / mp.mpf(k)) for each, k in ((last, order), (before, order - 1)))
+        wanted = UNIT * radius * (mp.mpf(TOLERANCE) * mp.exp(mp.mpf(-7) / 10)) ** (1 / mp.mpf(order - 1))
         size = sum(abs(one) + abs(p) for one, p in zip(c[1], c[order], strict=True))
     for place, true, error in ((t.DEFECT, max(apart), 1e-15), (t.WANTED, wanted, 1e-10), (t.SIZE, size, 1e-15)):
         assert series.told[place] == pytest.approx(float(true), rel=8 * error)

@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 from .aligned import aligned
 from .compiler import inline, kernel
+from .loop import to_a_number
 from .motion import CANCELLED, FINE, NOT_FINITE, ROUNDING, SINGULAR, STEP_LIMIT, STEP_UNDERFLOW, TOO_LARGE, Floats
 from .pointer import call_jet
 from .step import LARGEST_VALUE
@@ -323,8 +324,9 @@ def plan_lane(lanes: Lanes, row: int, lane: int, largest: float, end: float) -> 
     wanted, left = min(lanes.told[WANTED, lane], largest, lanes.least[lane]), end - lanes.now[lane]
     lanes.before[lane] = lanes.now[lane]
     h = left if wanted * (1.0 + 1e-9) >= left else wanted
-    size = cut_of(lanes, row, lane, h) if lanes.conditions > 0 else h
-    lanes.is_cut[lane] = 1 if size < h else 0
+    cut = cut_of(lanes, row, lane, h) if lanes.conditions > 0 else h
+    lanes.is_cut[lane] = 1 if cut < h else 0
+    size = cut if cut == left else to_a_number(lanes.now[lane], cut)
     lanes.sizes[lane] = lanes.sizes_before[lane] = size
     lanes.now[lane] = end if size == left else lanes.now[lane] + size
     lanes.is_pending[lane] = 1

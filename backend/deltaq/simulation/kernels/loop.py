@@ -13,6 +13,8 @@ from .step_control import Control
 from .switch import detect_hold_ahead
 from .watch import Watch
 
+SLIGHT = 1e-6  # a part of a step
+
 
 class Result(NamedTuple):
     """How a run ended: `outcome` as in `motion`; the first `samples` rows of the samples are filled.
@@ -34,6 +36,17 @@ def kahan_add(t: float, h: float, compensation: float) -> tuple[float, float]:
     increment = h + compensation
     new = t + increment
     return new, increment - (new - t)
+
+
+@inline
+def to_a_number(t: float, h: float) -> float:
+    """A step of about size h from t to a number, so that samples are taken at the times that are meant.
+
+    At t = 100 s the rounding of a time is 10⁻¹⁴ s, in which a state may change by more than its errors. A step so short
+    that it would be another one is left as it is.
+    """
+    rounded = (t + h) - t
+    return rounded if abs(rounded - h) <= SLIGHT * h else h
 
 
 @inline

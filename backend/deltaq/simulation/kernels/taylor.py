@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from .aligned import aligned
 from .compiler import inline, kernel, runtime_int, subroutine
-from .loop import Result, advance_time, begin, interruption
+from .loop import Result, advance_time, begin, interruption, to_a_number
 from .motion import (
     FINE,
     HELD,
@@ -46,8 +46,8 @@ OLD, NEW, OLD_REST, NEW_REST, SLOPES = 0, 1, 2, 3, 4
 STATES, LANES = 5, 4  # how many rows, and how many components one vector has
 # What the code is told of a step, and tells: θ, the step before and H in units of time; of the order and the tolerance
 # (`single.told_of`); whether the state fits, the size of the series, the defect, the step wanted; the units of rows.
-THETA, GONE, UNIT, TOLERANCE, SAFETY, SHARES, FITS, SIZE, DEFECT, WANTED, UNITS = 0, 1, 2, 3, 4, 5, 7, 8, 9, 10, 11
-TOLD = 13
+THETA, GONE, UNIT, SAFETY, SHARES, FITS, SIZE, DEFECT, WANTED, UNITS = 0, 1, 2, 3, 4, 6, 7, 8, 9, 10
+TOLD = 12
 # And in integers: the order, the components of a row, the vectors of a state, its width, how many of it are judged.
 ORDER, COMPONENTS, VECTORS, WIDTH, JUDGED = 0, 1, 2, 3, 4
 
@@ -114,13 +114,13 @@ def make_series(
 
 
 def begin_series(series: Series, told: tuple[float, ...], state: Floats, constants: Floats) -> None:
-    """A motion begins, whatever the arrays were used for before; `told` is what stands from the place TOLERANCE on.
+    """A motion begins, whatever the arrays were used for before; `told` is what stands from the place SAFETY on.
 
     `state` has shape (width,), `constants` shape (constants,).
     """
     width, given = series.width, series.given
     given[0], given[1 : 1 + width], given[2 + width :] = 1.0, state, constants
-    series.told[TOLERANCE : TOLERANCE + len(told)] = told
+    series.told[SAFETY : SAFETY + len(told)] = told
     series.states[:] = 0.0
     series.states[: NEW + 1, :width] = state
 
@@ -266,7 +266,9 @@ def choose_step(series: Series, row: int, control: Control, piece: int, t: float
     """A step of up to `most` seconds, by the piece and the conditions."""
     h, ends_piece = fit_step(control.plan, piece, t, most)
     cut = first_change(series, row, t, h) if series.conditions > 0 else h
-    return Choice(cut, ends_piece and cut >= h, cut < h)
+    is_last = ends_piece and cut >= h
+    size = cut if is_last or control.tolerance == 0.0 else to_a_number(t, cut)
+    return Choice(size, is_last, cut < h)
 
 
 @inline

@@ -1,6 +1,6 @@
 """Taylor: the series of the motion itself, by recurrences made of the model; for high accuracy and long times.
 
-Order p by the tolerance: with the local tolerance ε that which takes least time, p = 1 − ½ ln ε, so 17 for 10⁻¹⁴; with
+Order p by the tolerance: with the local tolerance ε that which takes least time, p = 1 − ⅔ ln ε, so 23 for 10⁻¹⁴; with
 a step that is given p = 8. No stages, and no tableau: all coefficients are found one after the other, and an order
 counts as one evaluation of the right-hand side. The last two coefficients choose the step, the series itself gives all
 samples and events. Stable as far as the series is: for p = 8 on the real interval [−4.31, 0] and

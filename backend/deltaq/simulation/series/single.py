@@ -28,7 +28,6 @@ from ..kernels.taylor import (
     SIZE,
     SLOPES,
     THETA,
-    TOLERANCE,
     UNIT,
     VECTORS,
     WANTED,
@@ -44,13 +43,13 @@ def single() -> MachineCode:
     return shared("single", lambda: compiled({"advance": _advance(), "measure": _measure()}))
 
 
-def told_of(order: int, tolerance: float) -> tuple[float, float, float, float]:
-    """What is told of an order p and a tolerance ε: log₂ ε, log₂ e^(−0.7/(p − 1)), 1/p, 1/(p − 1).
+def told_of(order: int, tolerance: float) -> tuple[float, float, float]:
+    """What is told of an order p and a tolerance ε: log₂ of (ε e^−0.7)^(1/(p − 1)), 1/p, 1/(p − 1).
 
     Without a tolerance (0) nobody asks for the step that is wanted.
     """
     bits = log2(tolerance) if tolerance > 0.0 else 0.0
-    return bits, -SAFETY_OF_STEPS / log(2.0) / (order - 1.0), 1.0 / order, 1.0 / (order - 1.0)
+    return (bits - SAFETY_OF_STEPS / log(2.0)) / (order - 1.0), 1.0 / order, 1.0 / (order - 1.0)
 
 
 @dataclass(frozen=True)
@@ -201,12 +200,14 @@ def _joined(one: Code, how: Callable[[str, str], str], name: str) -> str:
 
 
 def _wanted(one: Code, last: str, before: str) -> str:
-    """H e^(−0.7/(p − 1)) over the larger of (|c_p|/ε)^(1/p) and (|c_(p−1)|/ε)^(1/(p − 1)), to ten digits."""
+    """H (ε e^−0.7)^(1/(p − 1)) over the larger of |c_p|^(1/p) and |c_(p−1)|^(1/(p − 1)), to ten digits.
+
+    With the order of Jorba and Zou, p = 1 + ½ ln(1/ε), that is their e^−2 e^(−0.7/(p − 1)).
+    """
     two = Code(2, one.lines, one.declared, prefix="t")
     half = two.new(f"insertelement {two.kind} poison, double {last}, i32 0")
     both = two.new(f"insertelement {two.kind} {half}, double {before}, i32 1")
-    excess = two.subtract(logarithm(two, both), two.spread(one.load("%work", TOLERANCE)))
     shares = two.new(f"load {two.kind}, ptr {one.at('%work', SHARES)}, align 8")
-    each = two.multiply(excess, shares)
+    each = two.multiply(logarithm(two, both), shares)
     steepest = one.larger(*(one.new(f"extractelement {two.kind} {each}, i32 {number}") for number in (0, 1)))
     return one.multiply(one.load("%work", UNIT), power_of_two(one, one.subtract(one.load("%work", SAFETY), steepest)))

@@ -126,17 +126,17 @@ def measure(shape: Shape, smallest_pivot: float) -> Code:
 
 
 def _wanted(code: Code, order: str, last: str, before: str) -> str:
-    """H e^(−0.7/(p − 1)) over the larger of (|c_p|/ε)^(1/p) and (|c_(p−1)|/ε)^(1/(p − 1)), to ten digits."""
+    """H (ε e^−0.7)^(1/(p − 1)) over the larger of |c_p|^(1/p) and |c_(p−1)|^(1/(p − 1)), to ten digits."""
     tolerance, count = (
         logarithm(code, code.load("%work", TOLERANCE)),
         code.spread(code.new(f"sitofp i64 {order} to double")),
     )
     fewer = code.subtract(count, code.number(1.0))
     steepest = code.larger(
-        code.divide(code.subtract(logarithm(code, last), tolerance), count),
-        code.divide(code.subtract(logarithm(code, before), tolerance), fewer),
+        code.divide(logarithm(code, last), count),
+        code.divide(logarithm(code, before), fewer),
     )
-    safety = code.divide(code.number(-SAFETY / log(2.0)), fewer)
+    safety = code.divide(code.subtract(tolerance, code.number(SAFETY / log(2.0))), fewer)
     return code.multiply(code.load("%work", UNIT), power_of_two(code, code.subtract(safety, steepest)))
 
 
