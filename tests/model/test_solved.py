@@ -6,6 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+import symengine as se
 from tests.simulation.constrained import four_bar, parallelogram, particle, scene, sleigh
 
 from deltaq.mechanics.library import load_scene, scene_ids
@@ -13,7 +14,7 @@ from deltaq.mechanics.scene import Scene
 from deltaq.model.compiled import QUICK, compile_expressions
 from deltaq.model.equations import equations
 from deltaq.model.model import Model, compile_model, of_motion
-from deltaq.model.solved import compiled_solution, solved
+from deltaq.model.solved import compiled_solution, solved, turned
 from deltaq.simulation.driver import simulate
 from deltaq.simulation.library import get_method
 from deltaq.simulation.service import problem_of
@@ -23,8 +24,8 @@ OWN = {"four-bar linkage": four_bar(), "parallelogram": parallelogram(), "sleigh
 
 
 @pytest.mark.parametrize("scene", (HELD | OWN).values(), ids=(HELD | OWN).keys())
-def test_accelerations_and_corrections_solve_their_linear_systems(scene: Scene) -> None:
-    """M q̈ − Aᵀλ = f, A q̈ = γ; and Δq = M⁻¹Aᵀμ with A Δq = g, at states anywhere."""
+def test_accelerations_and_projections_solve_their_linear_systems(scene: Scene) -> None:
+    """M q̈ − Aᵀλ = f, A q̈ = γ; Δq = M⁻¹Aᵀμ with A Δq = g; and det(A₀M⁻¹Aᵀ), at states anywhere."""
     eqs = equations(scene)
     n, m = len(eqs.forcing), len(eqs.constraints.slips)
     found, gaps = compiled_solution(eqs, QUICK), (*eqs.constraints.gaps, *eqs.constraints.slips)
@@ -35,8 +36,10 @@ def test_accelerations_and_corrections_solve_their_linear_systems(scene: Scene) 
     rows = np.array([[*source.uniform(-1.0, 1.0, 2 * n), 0.3, *parameters] for _ in range(20)])
     told = compile_expressions(eqs.symbols.inputs, of_motion(eqs)).table(rows)
     off = compile_expressions(eqs.symbols.inputs, gaps).table(rows)
-    for said, motion, off_by, corrections in zip(
-        told, found.motion.table(rows), off, found.corrections.table(rows), strict=True
+    before = source.normal(size=(len(rows), m * n))
+    projected = found.projected.table(np.hstack([rows, before]))
+    for row, said, motion, off_by, new, rows_before in zip(
+        rows, told, found.motion.table(rows), off, projected, before, strict=True
     ):
         place = n * (n + 1) // 2
         mass = np.zeros((n, n))
@@ -49,9 +52,10 @@ def test_accelerations_and_corrections_solve_their_linear_systems(scene: Scene) 
             continue
         both = np.linalg.solve(whole, np.concatenate([said[place : place + n], bend]))
         assert motion[place : place + n] == pytest.approx(both[:n], rel=1e-8, abs=1e-8)
-        responses = corrections[m * n : 2 * m * n].reshape(m, n)
-        moved, sped = corrections[2 * m * n :][: 2 * n].reshape(2, n)
-        assert mass @ responses.T == pytest.approx(a.T, abs=1e-9)
+        moved, sped = (row[: 2 * n] - new[: 2 * n]).reshape(2, n)
+        assert new[2 * n :][: m * n].reshape(m, n) == pytest.approx(a, abs=1e-12)
+        crossed = rows_before.reshape(m, n) @ np.linalg.solve(mass, a.T)
+        assert new[-4] == pytest.approx(np.linalg.det(crossed), rel=1e-7, abs=1e-9)
         assert a[:holonomic] @ moved == pytest.approx(off_by[:holonomic], rel=1e-8, abs=1e-8)
         assert a @ sped == pytest.approx(off_by[holonomic:], abs=1e-8)
         for change, count in ((moved, holonomic), (sped, m)):
@@ -109,3 +113,14 @@ def test_a_distance_is_without_roots_where_its_length_is_positive() -> None:
     signed = replace(pendulum, parameters=tuple(replace(each, positive=False) for each in pendulum.parameters))
     assert "sqrt" in str(equations(signed).constraints)
     assert compile_model(signed) is not None
+
+
+def test_larger_matrices_tell_by_their_pivots_that_nothing_turned() -> None:
+    """A number above zero only where the determinant is: for what is nearly as it was, and for what is not."""
+    source = np.random.default_rng(3)
+    for _ in range(200):
+        near = source.normal(size=(5, 5))
+        crossed = near @ near.T + source.uniform(0.0, 3.0) * source.normal(size=(5, 5))
+        table = tuple(tuple(se.RealDouble(entry) for entry in row) for row in crossed)
+        assert float(turned(table)) <= 0.0 or np.linalg.det(crossed) > 0.0
+    assert float(turned(tuple(tuple(se.RealDouble(float(i == k)) for i in range(5)) for k in range(5)))) > 0.0

@@ -16,11 +16,10 @@ import symengine as se
 from .compiled import THOROUGH, Compiled, compile_expressions
 from .equations import Equations
 from .functions import Expr
-from .kinetic import ZERO, Vector
-from .solved import ONE, Solved, dot, solved
+from .kinetic import Vector
+from .solved import Solved, Table, along, determinant, dot, solved
 
 MOST = 3  # constraints; more are left to loops
-Table = tuple[Vector, ...]
 
 
 @dataclass(frozen=True)
@@ -110,19 +109,6 @@ def _shifts(eqs: Equations, responses: Table, inverse: Table) -> list[Expr]:
 def _symmetric(triangle: Sequence[Expr], m: int) -> Table:
     """The matrix whose lower triangle that is."""
     return tuple(tuple(triangle[max(i, k) * (max(i, k) + 1) // 2 + min(i, k)] for k in range(m)) for i in range(m))
-
-
-def along(rows: Table, multiples: Vector) -> Vector:
-    """So many of the rows, summed up."""
-    return tuple(dot(multiples, column) for column in zip(*rows, strict=True))
-
-
-def determinant(table: Table) -> Expr:
-    """The determinant of a small matrix, by its first row."""
-    if not table:
-        return ONE
-    minors = (determinant(tuple(row[:k] + row[k + 1 :] for row in table[1:])) for k in range(len(table)))
-    return sum(((-1) ** k * entry * minor for k, (entry, minor) in enumerate(zip(table[0], minors, strict=True))), ZERO)
 
 
 def _rows(numbers: Sequence[Expr], m: int, n: int) -> Table:

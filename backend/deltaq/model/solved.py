@@ -20,7 +20,9 @@ from .equations import Equations
 from .functions import Expr
 from .kinetic import ZERO, Vector
 
+Table = tuple[Vector, ...]
 ONE = se.Integer(1)
+SMALL = 3  # rows of a matrix whose determinant is written out
 MOST_PRODUCTS = 2000  # of numbers; a model that needs more is solved by loops, whose code is no longer for it
 
 
@@ -121,16 +123,19 @@ class Solved:
         identity = [ONE if j == i else ZERO for i in range(n) for j in range(i + 1)]
         return [*identity, *self.accelerations, *power, *self.signs]
 
-    @property
-    def corrections(self) -> list[Expr]:
-        """A and AM⁻¹ by rows, what of the latter g and w are off by in q and q̇, then `signs`."""
-        rows = [entry for table in (self._held.jacobian, self.responses) for row in table for entry in row]
-        off = (self._along(self.share.solve(missed)) for missed in (self._held.gaps, self._held.slips))
-        return [*rows, *(change for changes in off for change in changes), *self.signs]
+    def projected(self, before: Table) -> list[Expr]:
+        """q and q̇ less what they are off by in g and w, in the metric of M, A by rows, how it turned, then `signs`.
 
-    def _along(self, multiples: Vector) -> Vector:
-        """So many of the first responses, summed up."""
-        return tuple(dot(multiples, column) for column in zip(*self.responses, strict=True))
+        The latter with A `before` a step: above zero, the constraints did not lose their independence on the way.
+        """
+        symbols, held = self.eqs.symbols, self._held
+        shares = (self.share.solve(missed) for missed in (held.gaps, held.slips))
+        off = (along(self.responses, share) for share in shares)
+        state = [of[name] for of in (symbols.values, symbols.rates) for name in symbols.free]
+        moved = (number - change for number, change in zip(state, (part for each in off for part in each), strict=True))
+        rows = (entry for row in held.jacobian for entry in row)
+        crossed = tuple(tuple(dot(row, each) for each in self.responses) for row in before)
+        return [*moved, *rows, turned(crossed), *self.signs]
 
     @property
     def reactions(self) -> Vector:
@@ -141,10 +146,10 @@ class Solved:
 
 @dataclass(frozen=True)
 class CompiledSolution:
-    """`Solved.motion` and `Solved.corrections` as machine code."""
+    """`Solved.motion` and `Solved.projected` as machine code; A `before` a step stands behind the latter's inputs."""
 
     motion: Compiled
-    corrections: Compiled
+    projected: Compiled
 
 
 def solved(eqs: Equations) -> Solved | None:
@@ -171,9 +176,12 @@ def compiled_solution(eqs: Equations, effort: int) -> CompiledSolution | None:
     found = solved(eqs)
     if found is None:
         return None
-    inputs = eqs.symbols.inputs
+    inputs, n, m = eqs.symbols.inputs, len(eqs.forcing), len(eqs.constraints.slips)
+    before = [se.Symbol(f"before {k}") for k in range(m * n)]
+    rows = tuple(tuple(before[k * n : (k + 1) * n]) for k in range(m))
     return CompiledSolution(
-        compile_expressions(inputs, found.motion, effort), compile_expressions(inputs, found.corrections, effort)
+        compile_expressions(inputs, found.motion, effort),
+        compile_expressions([*inputs, *before], found.projected(rows), effort),
     )
 
 
@@ -187,6 +195,33 @@ def _products(matrix: Sequence[Vector], m: int) -> float:
 def _least(values: Sequence[Expr]) -> Expr:
     distinct = list(dict.fromkeys(values))
     return distinct[0] if len(distinct) == 1 else se.Min(*distinct)
+
+
+def along(rows: Table, multiples: Sequence[Expr]) -> Vector:
+    """So many of the first rows, summed up."""
+    return tuple(dot(multiples, column) for column in zip(*rows, strict=True))
+
+
+def determinant(table: Table) -> Expr:
+    """The determinant of a small matrix, by its first row."""
+    if not table:
+        return ONE
+    minors = (determinant(tuple(row[:k] + row[k + 1 :] for row in table[1:])) for k in range(len(table)))
+    return sum(((-1) ** k * entry * minor for k, (entry, minor) in enumerate(zip(table[0], minors, strict=True))), ZERO)
+
+
+def turned(table: Table) -> Expr:
+    """A number above zero only where the determinant is: of a small matrix the determinant, else its smallest pivot."""
+    if len(table) <= SMALL:
+        return determinant(table)
+    rows, pivots = [list(row) for row in table], []
+    for k, row in enumerate(rows):
+        pivots.append(row[k])
+        for other in rows[k + 1 :]:
+            part = other[k] / row[k]
+            for j in range(k + 1, len(row)):
+                other[j] -= part * row[j]
+    return _least(pivots)
 
 
 def dot(a: Sequence[Expr], b: Sequence[Expr]) -> Expr:

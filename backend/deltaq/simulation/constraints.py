@@ -56,7 +56,7 @@ def block(problem: Problem, *, is_long: bool = True, with_phase: bool = False, t
         head[kernel.GAPS], head[kernel.GAPS_DATA] = gaps.addresses
     if solution is not None:
         head[kernel.SOLVED], head[kernel.SOLVED_DATA] = solution.motion.addresses
-        head[kernel.CORRECTED], head[kernel.CORRECTED_DATA] = solution.corrections.addresses
+        head[kernel.PROJECTED], head[kernel.PROJECTED_DATA] = solution.projected.addresses
     if phase is not None:
         head[kernel.PHASE], head[kernel.PHASE_DATA] = phase.addresses
     head[kernel.TELLS_END] = tells_end

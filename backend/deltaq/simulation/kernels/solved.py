@@ -8,14 +8,13 @@ from __future__ import annotations
 from .compiler import callback, inline
 from .motion import FINE, Floats, has_signs, holds
 from .pointer import call, doubles_at, prevent_vectorization
-from .projection import CLOSE, Ends, finish_step, take_state, turning
+from .projection import CLOSE, Ends, finish_step, take_state
 from .system import (
-    CORRECTED,
-    CORRECTED_DATA,
-    COUNT,
     DEGREES,
     IS_UNDER_WAY,
     POWERED,
+    PROJECTED,
+    PROJECTED_DATA,
     SOLVED,
     SOLVED_DATA,
     TELLS_END,
@@ -28,19 +27,17 @@ MOST_CORRECTIONS, SURE = 8, 2  # Newton's corrections; behind so many, one that 
 
 
 @inline
-def correct_solved(system: System, h: float, rates: Floats) -> tuple[bool, bool]:
-    """Takes from the state in `inputs` what it is off by: whether hardly anything changed.
+def take_projected(system: System, h: float, rates: Floats) -> tuple[bool, bool]:
+    """What was projected becomes the state in `inputs`: whether hardly anything changed.
 
     Once relative to each coordinate or rate, or to how far it moves in h seconds, once relative to it or 1. `rates` are
     d/dt of (q, q̇) nearby, shape (≥ 2n,).
     """
-    n, is_close, is_small = system.head[DEGREES], True, True
-    first = 2 * system.head[COUNT] * n
-    for i in range(2 * n):
-        change = system.corrections[first + i]
-        value = system.inputs[i] - change
+    is_close, is_small = True, True
+    for i in range(2 * system.head[DEGREES]):
+        value = system.projected[i]
+        size, change = abs(value), abs(system.inputs[i] - value)
         system.inputs[i] = value
-        size, change = abs(value), abs(change)
         if not change <= CLOSE * max(size, abs(h * rates[i])):
             is_close = False
             if not change <= CLOSE * max(1.0, size):
@@ -53,17 +50,16 @@ def project_solved(system: System, h: float, rates: Floats) -> bool:
     """Moves the state in `inputs` onto g = 0 and w = 0, in the metric of M; whether that was possible.
 
     Each correction is one of Newton's own, with A and M where it is made: they converge quadratically. Numbers that are
-    not finite never do. `rates` are d/dt of (q, q̇) nearby, shape (≥ 2n,).
+    not finite never do. Where constraints may have lost their independence since A `before` the step, it was not.
+    `rates` are d/dt of (q, q̇) nearby, shape (≥ 2n,).
     """
-    n = system.head[DEGREES]
-    first = 2 * system.head[COUNT] * n
     for tries in range(MOST_CORRECTIONS):
-        call(system.head[CORRECTED], system.head[CORRECTED_DATA], system.corrections, system.inputs)
-        if not has_signs(system.corrections, first + 2 * n):
+        call(system.head[PROJECTED], system.head[PROJECTED_DATA], system.projected, system.inputs)
+        if not has_signs(system.signs, 1):
             return False
-        is_close, is_small = correct_solved(system, h, rates)
+        is_close, is_small = take_projected(system, h, rates)
         if is_close or (tries >= SURE and is_small):
-            return True
+            return bool(system.signs[0] > 0.0)
     return False
 
 
@@ -74,7 +70,7 @@ def finish_solved(system: System, t: float, h: float, ends: Ends) -> bool:
     That is so, too, where constraints may have lost their independence on the way.
     """
     _, new, rates, derivative = ends
-    n, size, rows = system.head[DEGREES], system.head[COUNT] * system.head[DEGREES], place_of_rows(system)
+    n, rows = system.head[DEGREES], place_of_rows(system)
     force = n * (n + 1) // 2
     take_state(system, t + h, new)
     if not project_solved(system, h, rates):
@@ -84,16 +80,14 @@ def finish_solved(system: System, t: float, h: float, ends: Ends) -> bool:
         call(system.head[SOLVED], system.head[SOLVED_DATA], system.outputs, system.inputs)
         if not holds(system.outputs, force, n, rows):
             return False
-    if not turning(system, system.corrections[size : 2 * size]) > 0.0:
-        return False
-    for d in range(n):
-        new[d], new[n + d] = system.inputs[d], system.inputs[n + d]
+    for d in range(2 * n):
+        new[d] = system.inputs[d]
     for d in range(n if tells_end else 0):
-        derivative[d], derivative[n + d] = system.inputs[n + d], system.outputs[force + d]
+        derivative[d], derivative[n + d] = new[n + d], system.outputs[force + d]
     if tells_end and system.head[POWERED]:
         derivative[2 * n] = system.outputs[force + n]
-    for i in range(size):
-        system.before[i] = system.corrections[i]
+    for i in range(system.before.size):
+        system.before[i] = system.rows[i]
     return True
 
 

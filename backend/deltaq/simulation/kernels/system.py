@@ -15,20 +15,21 @@ from .pointer import doubles_at, integers_at
 # The integers that a block begins with.
 SIZE, DEGREES, COUNT, HOLONOMIC, POWERED, RANK, INPUTS, OUTPUTS, PHASE_OUTPUTS = 0, 1, 2, 3, 4, 5, 6, 7, 8
 MOTION, MOTION_DATA, GAPS, GAPS_DATA, PHASE, PHASE_DATA, LOCKS, IS_UNDER_WAY = 9, 10, 11, 12, 13, 14, 15, 16
-TELLS_END, SOLVED, SOLVED_DATA, CORRECTED, CORRECTED_DATA, HEAD = 17, 18, 19, 20, 21, 22
+TELLS_END, SOLVED, SOLVED_DATA, PROJECTED, PROJECTED_DATA, HEAD = 17, 18, 19, 20, 21, 22
 SIGNS = 3  # that tell whether a solution in symbols holds
 
 
 class System(NamedTuple):
     """A model with constraints, m of them, and the arrays it is solved in; `head` are the integers of its block.
 
-    `inputs` has shape (2n + 1 + parameters,), `outputs` and `phase` receive what the compiled functions say.
+    `inputs` has shape (2n + 1 + parameters,), and `before` stands behind it; `outputs` and `phase` receive what the
+    compiled functions say.
     `responses`, shape (m n,), are the rows of AM⁻¹; `share`, shape (m m,), is AM⁻¹Aᵀ scaled to a unit diagonal by
     `scales`, shape (m,), and factored, `order` the order of its rows; `of_gaps` and `gap_order` the same of the
     holonomic ones. `multipliers`, shape (m,), are λ, `bends`, shape (n,), is q̈, `right`, shape (m,), a right side.
     `gaps`, shape (2 m,), are g and w; `before`, shape (m n,), is A where the step began, `minor`, shape (m m,), room
-    for a determinant. `corrections`, shape (2 m n + 2 n + SIGNS,), receives what `Solved.corrections` says.
-    `conditioning`, shape (1,), keeps the smallest pivot met, relative to its diagonal entry.
+    for a determinant. `projected`, shape (2n,), `rows`, shape (m n,), and `signs`, shape (1 + SIGNS,), are what
+    `Solved.projected` says. `conditioning`, shape (1,), keeps the smallest pivot met, relative to its diagonal entry.
     """
 
     head: Indices
@@ -47,7 +48,9 @@ class System(NamedTuple):
     gaps: Floats
     before: Floats
     minor: Floats
-    corrections: Floats
+    projected: Floats
+    rows: Floats
+    signs: Floats
     conditioning: Floats
 
 
@@ -58,11 +61,11 @@ def block_at(data: int) -> System:
     n, m = head[DEGREES], head[COUNT]
     order, gap_order = integers_at(data + 8 * HEAD, m), integers_at(data + 8 * (HEAD + m), m)
     inputs = data + 8 * (HEAD + 2 * m)
-    outputs = inputs + 8 * head[INPUTS]
+    before = inputs + 8 * head[INPUTS]
+    outputs = before + 8 * m * n
     phase = outputs + 8 * head[OUTPUTS]
     responses = phase + 8 * head[PHASE_OUTPUTS]
-    before = responses + 8 * m * n
-    share = before + 8 * m * n
+    share = responses + 8 * m * n
     of_gaps = share + 8 * m * m
     minor = of_gaps + 8 * m * m
     scales = minor + 8 * m * m
@@ -70,8 +73,10 @@ def block_at(data: int) -> System:
     right = multipliers + 8 * m
     gaps = right + 8 * m
     bends = gaps + 16 * m
-    corrections = bends + 8 * n
-    size = 2 * m * n + 2 * n + SIGNS
+    projected = bends + 8 * n
+    rows = projected + 16 * n
+    signs = rows + 8 * m * n
+    conditioning = signs + 8 * (1 + SIGNS)
     return System(
         head,
         order,
@@ -89,14 +94,16 @@ def block_at(data: int) -> System:
         doubles_at(gaps, 2 * m),
         doubles_at(before, m * n),
         doubles_at(minor, m * m),
-        doubles_at(corrections, size),
-        doubles_at(corrections + 8 * size, 1),
+        doubles_at(projected, 2 * n),
+        doubles_at(rows, m * n),
+        doubles_at(signs, 1 + SIGNS),
+        doubles_at(conditioning, 1),
     )
 
 
 def block_size(n: int, m: int, inputs: int, outputs: int, phase: int) -> int:
     """How many numbers a block takes."""
-    return HEAD + 2 * m + inputs + outputs + phase + 4 * m * n + 3 * m * m + 5 * m + 3 * n + SIGNS + 1
+    return HEAD + 2 * m + inputs + outputs + phase + 3 * m * n + 3 * m * m + 5 * m + 3 * n + SIGNS + 2
 
 
 @inline
