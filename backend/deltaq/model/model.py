@@ -15,6 +15,7 @@ from .constraints import ConstraintEquations
 from .disturbance import disturbed
 from .equations import Equations, equations
 from .functions import Expr
+from .kicks import compiled_kicks
 from .parts import parts
 from .phase import PhaseSpace, phase_space
 from .pushes import Pushes, compiled_pushes
@@ -143,6 +144,11 @@ class Model:
     def pushes(self) -> Pushes | None:
         """What keeps kicks and drifts on constraints, for long runs; compiled when a method first asks for it."""
         return compiled_pushes(self.eqs)
+
+    @cached_property
+    def kicks(self) -> Compiled | None:
+        """What corrects a stage and the kick that keeps constraints, for long runs; compiled as `pushes` are."""
+        return compiled_kicks(self.eqs)
 
     @cached_property
     def disturbed(self) -> Model:

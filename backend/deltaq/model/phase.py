@@ -17,6 +17,7 @@ from random import Random
 from .compiled import THOROUGH, Compiled, compile_expressions
 from .equations import Equations
 from .functions import Expr
+from .kinetic import Vector
 from .solved import solved
 
 POINTS, NEGLIGIBLE = 3, 1e-13
@@ -41,15 +42,13 @@ def phase_space(eqs: Equations) -> PhaseSpace:
     rates = tuple(symbols.rates[name] for name in symbols.free)
     values = tuple(symbols.values[name] for name in symbols.free)
     triangle = tuple(entry for i, row in enumerate(eqs.mass_matrix) for entry in row[: i + 1])
-    momenta = tuple(eqs.kinetic.diff(rate) for rate in rates)
-    bends = tuple(eqs.kinetic.diff(value) for value in values)
+    momenta, forces = momenta_and_rates(eqs)
     at_rest = tuple(momentum.subs(dict.fromkeys(rates, 0)) for momentum in momenta)
     is_separable = (
         all(vanishes(entry.diff(x)) for entry in (*triangle, *at_rest) for x in (*values, symbols.time))
-        and all(vanishes(bend) for bend in bends)
-        and not any(force.free_symbols & set(rates) for force in eqs.forces)
+        and forces == eqs.forces
+        and not any(force.free_symbols & set(rates) for force in forces)
     )
-    forces = eqs.forces if is_separable else tuple(a + b for a, b in zip(bends, eqs.forces, strict=True))
     found = PhaseSpace(compile_expressions(symbols.inputs, [*triangle, *momenta, *forces], THOROUGH), is_separable)
     solution = solved(eqs)
     if solution is None:
@@ -57,6 +56,17 @@ def phase_space(eqs: Equations) -> PhaseSpace:
     total = (a + b for a, b in zip(forces, solution.reactions, strict=True))
     held = compile_expressions(symbols.inputs, [*triangle, *momenta, *total, *solution.signs], THOROUGH)
     return replace(found, held=held)
+
+
+def momenta_and_rates(eqs: Equations) -> tuple[Vector, Vector]:
+    """p = ∂E/∂q̇ and ṗ = ∂E/∂q + Q, without the first of these where it is zero."""
+    symbols = eqs.symbols
+    momenta, bends = (
+        tuple(eqs.kinetic.diff(of[name]) for name in symbols.free) for of in (symbols.rates, symbols.values)
+    )
+    if all(vanishes(bend) for bend in bends):
+        return momenta, eqs.forces
+    return momenta, tuple(a + b for a, b in zip(bends, eqs.forces, strict=True))
 
 
 def vanishes(expression: Expr) -> bool:

@@ -15,6 +15,7 @@ from .kernels.constraints import constrained_motion, constrained_phase
 from .kernels.explicit_runge_kutta import integrate
 from .kernels.implicit_runge_kutta import integrate_implicit
 from .kernels.implicit_workspace import make_implicit_workspace
+from .kernels.kicked import Kicked, make_kicked
 from .kernels.loop import Result
 from .kernels.motion import Motion
 from .kernels.newmark import integrate_newmark
@@ -80,9 +81,11 @@ def _partitioned(scheme: Partitioned, arguments: KernelArguments) -> Result:
     problem = arguments.problem
     if is_split(scheme, problem):
         return _split(scheme, arguments)
-    kicked = problem.model.layout.holonomic if is_kicked(scheme, problem) else 0
-    phase = free_phase_of(problem) if is_kicked(scheme, problem) else phase_of(problem, is_long=arguments.is_long)
-    workspace = make_implicit_workspace(problem.state, problem.degrees, scheme.stages, kicked)
+    phase, count, kicked = phase_of(problem, is_long=arguments.is_long), 0, None
+    if is_kicked(scheme, problem):
+        phase, count = free_phase_of(problem), problem.model.layout.holonomic
+        kicked = kicked_of(scheme, problem) if arguments.is_long else None
+    workspace = make_implicit_workspace(problem.state, problem.degrees, scheme.stages, count, kicked)
     weights = implicit_weights(scheme)
     return integrate_implicit(
         arguments.motion, phase, weights, arguments.control, arguments.watch, workspace, arguments.times, arguments.out
@@ -105,6 +108,13 @@ def is_kicked(scheme: Scheme, problem: Problem) -> bool:
     if not isinstance(scheme, Partitioned) or not problem.is_constrained:
         return False
     return scheme.is_symplectic and (scheme.stages == 1 or bool(scheme.kicks))
+
+
+def kicked_of(scheme: Partitioned, problem: Problem) -> Kicked | None:
+    """What corrects a single stage on constraints as solved for in symbols, where there is a solution."""
+    n, m = problem.degrees, len(problem.model.layout.multipliers)
+    found = problem.model.kicks if scheme.stages == 1 and problem.rank == m else None
+    return None if found is None else make_kicked(found.addresses, np.array(problem.parameters), n, m)
 
 
 def _split(scheme: Partitioned, arguments: KernelArguments) -> Result:

@@ -7,12 +7,14 @@ import numpy as np
 from .compiler import inline
 from .implicit_error import error_of, prepare_error
 from .implicit_workspace import ImplicitWorkspace, compensated_sum
+from .kicked import begin_kicked, invert
 from .kicks import prepare_kicks
 from .motion import FINE, NEWTON_FAILED, NOT_FINITE, TOO_LARGE, Motion, finish_constrained, rhs
 from .newton import assemble, newton
 from .phase import Phase, linearize, momenta, velocity
 from .stages import ImplicitWeights, Start, midpoint
 from .step import LARGEST_VALUE
+from .system import block_at
 
 
 @inline
@@ -69,6 +71,8 @@ def prepare(weights: ImplicitWeights, h: float, workspace: ImplicitWorkspace) ->
     """Decomposes the matrices for steps of size h; NEWTON_FAILED if one is singular."""
     if not assemble(weights, h, workspace.stages):
         return NEWTON_FAILED
+    if workspace.kicked.address != 0:
+        invert(workspace.stages, workspace.kicked)
     if weights.error.size > 0 and not prepare_error(weights, h, workspace):
         return NEWTON_FAILED
     return FINE
@@ -89,13 +93,18 @@ def attempt_implicit(
     Returns the outcome, the evaluations made, the ratio of the first two corrections, and the error over what is
     tolerated.
     """
-    n, stages, kicks = workspace.p.size, workspace.stages, workspace.kicks
+    n, stages, kicks, kicked = workspace.p.size, workspace.stages, workspace.kicks, workspace.kicked
     start, now = Start(workspace.ends.old[:n], workspace.ends.old[n : 2 * n], workspace.p), (t, h, 0.02 * tolerance)
     outcome, iterations, slowness = FINE, 0, 0.0
     if kicks.right.size > 0:
-        outcome = prepare_kicks(motion, weights, t, h, start, stages, kicks)
+        for d in range(n):
+            kicks.p[d] = start.p[d]
+        if kicked.address != 0:
+            begin_kicked(motion, block_at(motion.block), weights, t, h, start, kicked)
+        else:
+            outcome = prepare_kicks(motion, weights, t, h, start, stages, kicks)
     if outcome == FINE:
-        outcome, iterations, slowness = newton(motion, phase, weights, now, start, stages, kicks)
+        outcome, iterations, slowness = newton(motion, phase, weights, now, start, stages, kicks, kicked)
     if outcome == FINE:
         outcome = finish(motion, phase, weights, t, h, workspace)
     error = error_of(weights, tolerance, h, workspace) if outcome == FINE and tolerance > 0.0 else 0.0

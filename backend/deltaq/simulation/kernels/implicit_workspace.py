@@ -8,6 +8,7 @@ import numpy as np
 
 from .compiler import inline
 from .hermite import Ends, make_ends
+from .kicked import Kicked, make_kicked
 from .kicks import Kicks, make_kicks
 from .linear import Indices
 from .motion import Floats
@@ -19,7 +20,8 @@ class ImplicitWorkspace(NamedTuple):
 
     `p`, `new_p` (momenta) and `rate` (ṗ at the start) have shape (n,); `compensation` and `new_compensation` (of q,
     then p, then the work), `error`, `state` and `derivative` shape (width,); `error_matrix` shape (n, n), its
-    `error_pivots` (n,); `powers`, those at the stages in W, shape (stages,). `kicks` keep positions on constraints.
+    `error_pivots` (n,); `powers`, those at the stages in W, shape (stages,). `kicks` keep positions on constraints,
+    `kicked` the same in symbols.
     """
 
     p: Floats
@@ -36,29 +38,38 @@ class ImplicitWorkspace(NamedTuple):
     derivative: Floats
     powers: Floats
     kicks: Kicks
+    kicked: Kicked
 
 
-def make_implicit_workspace(state: Floats, n: int, count: int, kicked: int = 0) -> ImplicitWorkspace:
+def make_implicit_workspace(
+    state: Floats, n: int, count: int, constraints: int = 0, kicked: Kicked | None = None
+) -> ImplicitWorkspace:
     """The workspace of `count` stages for n coordinates, at an initial state of shape (width,).
 
-    `kicked` is how many constraints are kept by kicks.
+    `constraints` is how many of them are kept by kicks, `kicked` what solves for these in symbols: the momenta and the
+    stage then stand in its numbers.
     """
     line, wide = np.zeros(n), np.zeros(state.size)
+    stages = make_stages(count, n)
+    if kicked is not None:
+        v, q, r = (each.reshape(1, n) for each in (kicked.rates, kicked.places, kicked.forces))
+        stages = stages._replace(v=v, q=q, r=r, residual=kicked.change)
     return ImplicitWorkspace(
-        line.copy(),
+        line.copy() if kicked is None else kicked.momenta,
         line.copy(),
         wide.copy(),
         wide.copy(),
         line.copy(),
         make_ends(state),
-        make_stages(count, n),
+        stages,
         wide.copy(),
         np.zeros((n, n)),
         np.zeros(n, dtype=np.int64),
         wide.copy(),
         wide.copy(),
         np.zeros(count),
-        make_kicks(kicked, count, n),
+        make_kicks(constraints, count, n),
+        kicked or make_kicked((0, 0), np.zeros(0), 0, 0),
     )
 
 

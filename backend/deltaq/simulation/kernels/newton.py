@@ -13,7 +13,8 @@ from __future__ import annotations
 import numpy as np
 
 from .compiler import inline
-from .kicks import Kicks, kick
+from .kicked import Kicked, correct_kicked
+from .kicks import Kicks, kick, prepare_kicks
 from .linear import decompose, substitute
 from .motion import FINE, NEWTON_FAILED, NOT_FINITE, ROUNDING, Floats, Motion
 from .phase import Phase, momenta
@@ -138,22 +139,30 @@ def newton(
     start: Start,
     stages: Stages,
     kicks: Kicks,
+    kicked: Kicked,
 ) -> tuple[int, int, float]:
     """Iterates until corrections are rounding errors, or (tolerance > 0) change positions by less than that.
 
-    `now` = (t, h, tolerance). Where kicks keep constraints, each correction brings the new positions onto them as well.
+    `now` = (t, h, tolerance). Where kicks keep constraints, each correction brings the new positions onto them as well:
+    by symbols as long as these hold.
     The last correction changes what ṗ adds to the momenta, too, unless that is below their rounding, or tolerated.
 
     Returns the outcome, the number of iterations and the ratio of the first two corrections, 0 if there were no more
     and the second may be a rounding error.
     """
     t, h, tolerance = now
-    before, ratio, slowness = np.inf, 0.0, 0.0
+    before, ratio, slowness, is_solved = np.inf, 0.0, 0.0, kicked.address != 0
     for iteration in range(1, MOST_ITERATIONS + 1):
-        evaluate(phase, weights, t, h, start.q, stages)
-        correct(weights, h, start.p, stages)
-        if kicks.right.size > 0:
-            kick(motion, weights, t, h, start, stages, kicks)
+        if is_solved:
+            is_solved = correct_kicked(kicked)
+            outcome = FINE if is_solved else prepare_kicks(motion, weights, t, h, start, stages, kicks)
+            if outcome != FINE:
+                return outcome, iteration, np.inf
+        if not is_solved:
+            evaluate(phase, weights, t, h, start.q, stages)
+            correct(weights, h, start.p, stages)
+            if kicks.right.size > 0:
+                kick(motion, weights, t, h, start, stages, kicks)
         correction = take(stages)
         if not correction < np.inf:
             return NOT_FINITE, iteration, np.inf

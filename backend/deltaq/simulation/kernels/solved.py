@@ -5,7 +5,7 @@ Source: Hairer, Wanner, Solving Ordinary Differential Equations II, 2nd ed., VII
 
 from __future__ import annotations
 
-from .compiler import callback, inline
+from .compiler import callback, inline, subroutine
 from .motion import FINE, Floats, has_signs, holds
 from .pointer import call, doubles_at, prevent_vectorization
 from .projection import CLOSE, Ends, finish_step, take_state
@@ -91,6 +91,17 @@ def finish_solved(system: System, t: float, h: float, ends: Ends) -> bool:
     return True
 
 
+@subroutine
+def finish_by_numbers(data: int, t: float, h: float, old: int, new: int, derivatives: tuple[int, int]) -> int:
+    """`finish_step` with the block at an address: nothing of it is on the way of who needs no numbers."""
+    prevent_vectorization()
+    system = block_at(data)
+    width = 2 * system.head[DEGREES] + system.head[POWERED]
+    before, behind = derivatives
+    ends = (doubles_at(old, width), doubles_at(new, width), doubles_at(before, width), doubles_at(behind, width))
+    return int(finish_step(system, t, h, ends))
+
+
 @callback("int64(int64, float64, float64, int64, int64, int64, int64)")
 def constrained_finish(
     data: int, t: float, h: float, old: int, new: int, old_derivative: int, new_derivative: int
@@ -107,4 +118,4 @@ def constrained_finish(
     )
     if system.head[SOLVED] != 0 and system.head[IS_UNDER_WAY] != 0 and finish_solved(system, t, h, ends):
         return FINE
-    return finish_step(system, t, h, ends)
+    return int(finish_by_numbers(data, t, h, old, new, (old_derivative, new_derivative)))
