@@ -37,6 +37,7 @@ def test_solution_is_that_of_numpy(matrix: np.ndarray) -> None:
         pytest.param([[1.0, 2.0], [2.0, 4.0]], id="dependent rows"),
         pytest.param([[np.nan, 1.0], [1.0, 1.0]], id="not a number"),
         pytest.param([[np.inf, 1.0], [1.0, 1.0]], id="infinite"),
+        pytest.param([[1e-310]], id="smaller than what has an inverse"),
     ],
 )
 def test_what_has_no_solution(matrix: list[list[float]]) -> None:

@@ -10,7 +10,7 @@ from .implicit_workspace import ImplicitWorkspace, compensated_sum
 from .kicked import begin_kicked, invert
 from .kicks import prepare_kicks
 from .motion import FINE, NEWTON_FAILED, NOT_FINITE, TOO_LARGE, Motion, finish_constrained, rhs
-from .newton import assemble, newton
+from .newton import GO_ON, assemble, newton, newton_in_symbols
 from .phase import Phase, linearize, momenta, velocity
 from .stages import ImplicitWeights, Start, midpoint
 from .step import LARGEST_VALUE
@@ -95,16 +95,16 @@ def attempt_implicit(
     """
     n, stages, kicks, kicked = workspace.p.size, workspace.stages, workspace.kicks, workspace.kicked
     start, now = Start(workspace.ends.old[:n], workspace.ends.old[n : 2 * n], workspace.p), (t, h, 0.02 * tolerance)
-    outcome, iterations, slowness = FINE, 0, 0.0
-    if kicks.right.size > 0:
-        for d in range(n):
-            kicks.p[d] = start.p[d]
-        if kicked.address != 0:
-            begin_kicked(motion, block_at(motion.block), weights, t, h, start, kicked)
-        else:
-            outcome = prepare_kicks(motion, weights, t, h, start, stages, kicks)
-    if outcome == FINE:
-        outcome, iterations, slowness = newton(motion, phase, weights, now, start, stages, kicks, kicked)
+    outcome, iterations, slowness = GO_ON, 0, 0.0
+    for d in range(n if kicks.right.size > 0 else 0):
+        kicks.p[d] = start.p[d]
+    if kicked.address != 0:
+        begin_kicked(motion, block_at(motion.block), weights, t, h, start, kicked)
+        outcome, iterations, slowness = newton_in_symbols(weights, now, start, stages, kicked)
+    if outcome == GO_ON:
+        outcome = prepare_kicks(motion, weights, t, h, start, stages, kicks) if kicks.right.size > 0 else FINE
+        if outcome == FINE:
+            outcome, iterations, slowness = newton(motion, phase, weights, now, start, stages, kicks)
     if outcome == FINE:
         outcome = finish(motion, phase, weights, t, h, workspace)
     error = error_of(weights, tolerance, h, workspace) if outcome == FINE and tolerance > 0.0 else 0.0

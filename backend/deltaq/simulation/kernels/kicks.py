@@ -17,11 +17,11 @@ from typing import NamedTuple
 
 import numpy as np
 
-from .compiler import inline, subroutine
+from .compiler import inline
 from .constraints import scale
 from .linear import Indices, substitute
 from .motion import FINE, NOT_FINITE, Floats, Motion
-from .pointer import call, prevent_vectorization
+from .pointer import call
 from .ranked import factor_ranked, solve_ranked
 from .stages import ImplicitWeights, Stages, Start
 from .system import (
@@ -116,13 +116,12 @@ def weigh_kicks(system: System, weights: ImplicitWeights, h: float, n: int, kick
             kicks.share[k * count + j] *= kicks.scales[k] * kicks.scales[j]
 
 
-@subroutine
+@inline
 def prepare_kicks(
     motion: Motion, weights: ImplicitWeights, t: float, h: float, start: Start, stages: Stages, kicks: Kicks
 ) -> int:
     """What every kick of a step needs, by the first guesses of Vᵢ; returns the outcome."""
     system, count, n = block_at(motion.block), weights.b.size, motion.degrees
-    prevent_vectorization()
     rows_before(system, t, start)
     for k in range(kicks.right.size):
         for i in range(count):

@@ -13,9 +13,10 @@ Indices = NDArray[np.int64]
 
 @inline
 def decompose(a: Floats, pivots: Indices) -> bool:
-    """P A = L U in place with partial pivoting; False if A is singular or not finite.
+    """P A = L U in place with partial pivoting, 1/U on the diagonal; False if A is singular or not finite.
 
-    `a` has shape (n, n) and becomes the factors; `pivots`, shape (n,), receives the rows exchanged.
+    Who solves often multiplies then, where one division would wait for another one. `a` has shape (n, n) and becomes
+    the factors; `pivots`, shape (n,), receives the rows exchanged.
     Source: Golub, Van Loan, Matrix Computations, 4th ed., §3.4.
     """
     n = pivots.size
@@ -29,8 +30,11 @@ def decompose(a: Floats, pivots: Indices) -> bool:
             return False
         for j in range(n):
             a[k, j], a[best, j] = a[best, j], a[k, j]
+        a[k, k] = inverse = 1.0 / a[k, k]
+        if not abs(inverse) < np.inf:
+            return False
         for i in range(k + 1, n):
-            a[i, k] /= a[k, k]
+            a[i, k] *= inverse
             for j in range(k + 1, n):
                 a[i, j] -= a[i, k] * a[k, j]
     return True
@@ -51,4 +55,4 @@ def substitute(a: Floats, pivots: Indices, x: Floats) -> None:
         left = x[i]
         for k in range(i + 1, n):
             left -= a[i, k] * x[k]
-        x[i] = left / a[i, i]
+        x[i] = left * a[i, i]

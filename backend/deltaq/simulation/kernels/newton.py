@@ -14,13 +14,14 @@ import numpy as np
 
 from .compiler import inline
 from .kicked import Kicked, correct_kicked
-from .kicks import Kicks, kick, prepare_kicks
+from .kicks import Kicks, kick
 from .linear import decompose, substitute
 from .motion import FINE, NEWTON_FAILED, NOT_FINITE, ROUNDING, Floats, Motion
 from .phase import Phase, momenta
 from .stages import ImplicitWeights, Stages, Start
 
 MOST_ITERATIONS = 50
+GO_ON = -1  # no outcome: there is one more correction to be made
 SLOW = 0.002  # a ratio of corrections above which the derivatives are taken anew
 
 
@@ -131,6 +132,43 @@ def rounding_floor(h: float, q: Floats, v: Floats, stages: Stages) -> tuple[floa
 
 
 @inline
+def judge(
+    weights: ImplicitWeights,
+    now: tuple[float, float, float],
+    iteration: int,
+    corrections: tuple[float, float],
+    is_kicked: int,
+    slowness: float,
+    start: Start,
+    stages: Stages,
+) -> tuple[int, float, float]:
+    """Whether a correction was the last: the outcome, or GO_ON; the ratio to the one before, and that of the first two.
+
+    `now` = (t, h, tolerance), `corrections` = (this one, the one before), `slowness` is the latter ratio as known
+    before. The last correction changes what ṗ adds to the momenta, too, unless that is below their rounding, or
+    tolerated.
+    """
+    _, h, tolerance = now
+    correction, before = corrections
+    if not correction < np.inf:
+        return NOT_FINITE, 0.0, np.inf
+    speed, floor = rounding_floor(h, start.q, start.v, stages)
+    ratio = correction / before if iteration > 1 else 0.0
+    slowness = ratio if iteration == 2 else slowness
+    left = correction * (ratio / (1.0 - ratio) if 0.0 < ratio < 1.0 else 1.0)
+    is_done = correction <= ROUNDING * speed or left <= 0.1 * ROUNDING * speed
+    is_done = is_done or (ratio > 0.3 and correction <= 1e-11 * speed + 64.0 * floor)  # rounding errors
+    is_done = is_done or (iteration > 1 and correction <= floor and is_kicked != 0)  # g is not known better
+    if is_done or (iteration > 1 and left * max(1.0, h) <= tolerance):
+        if is_done and stages.influence[0] * correction > 0.1 * ROUNDING * speed:
+            follow(weights, h, stages)
+        return FINE, ratio, slowness if iteration > 2 or not is_done else 0.0
+    if iteration > 3 and ratio >= 1.0:
+        return NEWTON_FAILED, ratio, ratio
+    return GO_ON, ratio, slowness
+
+
+@inline
 def newton(
     motion: Motion,
     phase: Phase,
@@ -139,45 +177,43 @@ def newton(
     start: Start,
     stages: Stages,
     kicks: Kicks,
-    kicked: Kicked,
 ) -> tuple[int, int, float]:
     """Iterates until corrections are rounding errors, or (tolerance > 0) change positions by less than that.
 
-    `now` = (t, h, tolerance). Where kicks keep constraints, each correction brings the new positions onto them as well:
-    by symbols as long as these hold.
-    The last correction changes what ṗ adds to the momenta, too, unless that is below their rounding, or tolerated.
+    `now` = (t, h, tolerance). Where kicks keep constraints, each correction brings the new positions onto them as well.
 
     Returns the outcome, the number of iterations and the ratio of the first two corrections, 0 if there were no more
     and the second may be a rounding error.
     """
-    t, h, tolerance = now
-    before, ratio, slowness, is_solved = np.inf, 0.0, 0.0, kicked.address != 0
+    t, h, _ = now
+    before, ratio, slowness, is_kicked = np.inf, 0.0, 0.0, 1 if kicks.right.size > 0 else 0
     for iteration in range(1, MOST_ITERATIONS + 1):
-        if is_solved:
-            is_solved = correct_kicked(kicked)
-            outcome = FINE if is_solved else prepare_kicks(motion, weights, t, h, start, stages, kicks)
-            if outcome != FINE:
-                return outcome, iteration, np.inf
-        if not is_solved:
-            evaluate(phase, weights, t, h, start.q, stages)
-            correct(weights, h, start.p, stages)
-            if kicks.right.size > 0:
-                kick(motion, weights, t, h, start, stages, kicks)
+        evaluate(phase, weights, t, h, start.q, stages)
+        correct(weights, h, start.p, stages)
+        if kicks.right.size > 0:
+            kick(motion, weights, t, h, start, stages, kicks)
         correction = take(stages)
-        if not correction < np.inf:
-            return NOT_FINITE, iteration, np.inf
-        speed, floor = rounding_floor(h, start.q, start.v, stages)
-        ratio = correction / before if iteration > 1 else 0.0
-        slowness = ratio if iteration == 2 else slowness
-        left = correction * (ratio / (1.0 - ratio) if 0.0 < ratio < 1.0 else 1.0)
-        is_done = correction <= ROUNDING * speed or left <= 0.1 * ROUNDING * speed
-        is_done = is_done or (ratio > 0.3 and correction <= 1e-11 * speed + 64.0 * floor)  # rounding errors
-        is_done = is_done or (iteration > 1 and correction <= floor and kicks.right.size > 0)  # g is not known better
-        if is_done or (iteration > 1 and left * max(1.0, h) <= tolerance):
-            if is_done and stages.influence[0] * correction > 0.1 * ROUNDING * speed:
-                follow(weights, h, stages)
-            return FINE, iteration, slowness if iteration > 2 or not is_done else 0.0
-        if iteration > 3 and ratio >= 1.0:
-            return NEWTON_FAILED, iteration, ratio
+        outcome, ratio, slowness = judge(
+            weights, now, iteration, (correction, before), is_kicked, slowness, start, stages
+        )
+        if outcome != GO_ON:
+            return outcome, iteration, slowness
+        before = correction
+    return NEWTON_FAILED, MOST_ITERATIONS, ratio
+
+
+@inline
+def newton_in_symbols(
+    weights: ImplicitWeights, now: tuple[float, float, float], start: Start, stages: Stages, kicked: Kicked
+) -> tuple[int, int, float]:
+    """`newton` with kicks that are solved for in symbols; GO_ON where that does not hold, and numbers have to."""
+    before, ratio, slowness = np.inf, 0.0, 0.0
+    for iteration in range(1, MOST_ITERATIONS + 1):
+        if not correct_kicked(kicked):
+            return GO_ON, iteration, slowness
+        correction = take(stages)
+        outcome, ratio, slowness = judge(weights, now, iteration, (correction, before), 1, slowness, start, stages)
+        if outcome != GO_ON:
+            return outcome, iteration, slowness
         before = correction
     return NEWTON_FAILED, MOST_ITERATIONS, ratio
