@@ -10,6 +10,13 @@ function raised(exponent) {
 /** What stands before the decimals, where it is not a point. @type {Record<string, string>} */
 const MARK = { de: "," };
 
+/** Between digits; the lengths of LaTeX, as 0.3em, have a point in every language. */
+const POINT = /(\d)\.(?=\d+(?!\d|\s*(?:em|ex|mu|pt)\b))/g;
+
+/** A formula whose numbers have the decimal mark of a language. @param {string} latex @param {string} lang */
+export const withDecimalMark = (latex, lang) =>
+  MARK[lang] ? latex.replace(POINT, (_, digit) => `${digit}{${MARK[lang]}}`) : latex;
+
 /**
  * Fixed number of decimals; a true minus sign, and never a negative zero.
  * @param {number} value @param {number} decimals @param {string} lang

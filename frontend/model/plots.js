@@ -18,6 +18,9 @@ import { largestError, usual } from "./trajectory.js";
 const VISIBLE = 0.01;
 const LEAST_RANGE = 1e-3;
 
+/** A range smaller than this part of its values would have ticks longer than their margin. */
+const FLAT = 1e-3;
+
 /** Between two rows there is room for the names of the curves: this many times the page's type size. */
 const GAP = 1.5;
 
@@ -209,7 +212,7 @@ function rangeOf(row) {
   const values = [...row.curves.filter(isShown).flatMap((curve) => curve.values), ...edges].filter(Number.isFinite);
   if (!values.length) return [0, 1];
   const [low, high] = usual(values.sort((a, b) => a - b));
-  const span = Math.max(high - low, row.least, 1e-6 * Math.max(Math.abs(low), Math.abs(high)), 1e-9);
+  const span = Math.max(high - low, row.least, FLAT * Math.max(Math.abs(low), Math.abs(high)), 1e-9);
   const room = 0.08 * span + (span - (high - low)) / 2;
   return [low - room, high + room];
 }

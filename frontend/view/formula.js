@@ -2,6 +2,7 @@
 
 import { html, nothing } from "lit-html";
 import { Directive, directive } from "lit-html/directive.js";
+import { withDecimalMark } from "../model/numbers.js";
 import { pieces } from "../model/prose.js";
 import { Exploring } from "./exploring.js";
 import { Fitting } from "./fitting.js";
@@ -59,8 +60,9 @@ class Typeset extends Directive {
   }
 
   /** @param {import("lit-html").ElementPart} part @param {[string, boolean, boolean]} values */
-  update(part, [latex, display, later]) {
+  update(part, [given, display, later]) {
     const element = /** @type {HTMLElement} */ (part.element);
+    const latex = withDecimalMark(given, document.documentElement.lang);
     const unseen = later && !element.closest("details[open]");
     // A step that was far may be near now.
     fitting.wake();

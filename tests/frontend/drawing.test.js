@@ -53,6 +53,16 @@ test("a letter makes room for an arrow of another layer as soon as there is one,
   assert.deepEqual(second, first);
 });
 
+test("a scene without a view of its own is seen with the origin of its coordinates, where that is near", () => {
+  const given = { ...scene, drawing: undefined };
+  const view = (/** @type {number[][]} */ ...bob) => viewOf(given, { ...trajectory, positions: { bob } });
+  const [x0, x1, y0, y1] = view([0.3, 0]);
+  assert.ok(x0 < 0 && x1 > 0.3 && y0 < 0 && y1 > 0, "at rest beside it");
+  const [, right, bottom] = view([-1, 2], [-2, 3]);
+  assert.ok(right > 0 && bottom < 0, "on two sides");
+  assert.ok(view([1000, 0], [1001, 0])[0] > 999, "far away it would leave a dot of the motion");
+});
+
 test("a view is widened on the side where the motion leaves it, and not without end", () => {
   const far = (/** @type {number} */ x) => ({ ...trajectory, positions: { bob: [[x, 0]] } });
   assert.deepEqual(viewOf(scene, far(1.8)), [-2, 2, -2, 2]);

@@ -1,6 +1,15 @@
 import { strict as assert } from "node:assert";
 import { test } from "node:test";
-import { decimalsOf, duration, fixed, niceFloor, roughly, significant, unitText } from "../../frontend/model/numbers.js";
+import {
+  decimalsOf,
+  duration,
+  fixed,
+  niceFloor,
+  roughly,
+  significant,
+  unitText,
+  withDecimalMark,
+} from "../../frontend/model/numbers.js";
 
 const CASES = [
   ["a time to wait is ten seconds at least", roughly(0), "10 s"],
@@ -21,6 +30,10 @@ const CASES = [
   ["microseconds", duration(42e-6, "en"), "42 µs"],
   ["milliseconds", duration(0.0021, "de"), "2,1 ms"],
   ["seconds", duration(1.5, "en"), "1.50 s"],
+  ["decimal comma in a formula", withDecimalMark("x = -0.25 t + 3", "de"), "x = -0{,}25 t + 3"],
+  ["none in a formula in English", withDecimalMark("0.25", "en"), "0.25"],
+  ["a length of LaTeX stays", withDecimalMark("0.5 \\\\[0.3em] 1.5", "de"), "0{,}5 \\\\[0.3em] 1{,}5"],
+  ["a letter behind a number is no length", withDecimalMark("0.5e_x + 1.25m", "de"), "0{,}5e_x + 1{,}25m"],
   ["raised exponents in units", unitText("m/s^2"), "m/s²"],
   ["negative exponents in units", unitText("kg*s^-1"), "kg·s⁻¹"],
   ["decimals of a step", decimalsOf(0.05), 2],

@@ -106,6 +106,16 @@ test("a constant curve has a range of its own", () => {
   assert.deepEqual(layout.xaxis.range, [0, 4]);
 });
 
+test("the numbers beside a curve that is nearly constant are short", () => {
+  for (const at of [0.3, -0.3, 17.25, 4321]) {
+    const [rest, row] = [{ ...trajectory, t: [0, 4], coordinates: { a: [at, at * (1 + 1e-9)] } }, rowsOf(scene, trajectory)[0]];
+    const rows = [{ ...row, curves: row.curves.map((curve) => ({ ...curve, values: rest.coordinates.a })) }];
+    const [low, high] = /** @type {any} */ (layoutOf(rows, 4, palette, "de", 300, 16)).yaxis.range;
+    assert.ok(low < at && at < high);
+    assert.ok((high - low) / Math.abs(at) > 5e-4, "four digits tell its ends apart");
+  }
+});
+
 test("pixels and times are inverse to each other, and held at the ends", () => {
   const { pixel, time } = timeScale(500, 10, 16);
   assert.equal(pixel(0), marginsOf(16).l);

@@ -78,6 +78,19 @@ def test_latex_file_is_sound(identifier: str, language: str) -> None:
     assert sentences.count("?") == asked, "a sign was left out"
 
 
+@pytest.mark.parametrize(
+    ("language", "mark", "other"), [pytest.param("de", "{,}", ".", id="de"), pytest.param("en", ".", "{,}", id="en")]
+)
+def test_numbers_of_formulas_have_the_mark_of_the_language(language: str, mark: str, other: str) -> None:
+    handout = written("stick-slip", language)
+    steps = [line.latex for part in handout.parts for line in part.lines]
+    formulas = [*steps, *(value.equation for value in handout.parameters)]
+    numbers = [number for latex in formulas for number in re.findall(r"\d(\.|\{,\})\d+(?!\d|em)", latex)]
+    assert mark in numbers
+    assert other not in numbers
+    assert all(rf"0{mark}2" in text for text in (markdown.markdown_file(handout), latex.latex_file(handout)))
+
+
 def test_balance_is_really_looked_at() -> None:
     assert not opened_and_closed(r"\frac{1}{2")
     assert not opened_and_closed(r"\begin{aligned}\begin{bmatrix}\end{aligned}\end{bmatrix}")

@@ -15,7 +15,7 @@ from ..language.latex_printer import latex as latex_text
 from ..mechanics.requests import inside
 from ..mechanics.scene import Scene
 from ..mechanics.user_text import UserText, in_language
-from ..narration.catalog import text
+from ..narration.catalog import text, with_decimal_mark
 from ..narration.derive import chapters_of_reactions, narrator_of, releases_of
 from ..narration.prose import CatalogText, words
 
@@ -28,12 +28,14 @@ class Value:
     name: str
     value: float
     unit: str
+    language: str
 
     @property
     def equation(self) -> str:
         """LaTeX of symbol = number."""
         mantissa, _, exponent = f"{self.value:.12g}".partition("e")
-        return f"{self.latex} = {mantissa}" + (f" \\cdot 10^{{{int(exponent)}}}" if exponent else "")
+        number = with_decimal_mark(self.language, mantissa)
+        return f"{self.latex} = {number}" + (f" \\cdot 10^{{{int(exponent)}}}" if exponent else "")
 
 
 @dataclass(frozen=True)
@@ -97,9 +99,9 @@ def written_down(
         language,
         in_language(scene.title, language),
         in_language(scene.summary, language),
-        tuple(_initial_values(system)),
-        tuple(Value(_latex(scene, p.name), p.name, p.value, _unit(p.unit)) for p in scene.parameters),
-        tuple(_part(str(i), chapter, substeps=substeps) for i, chapter in enumerate(chapters, 1)),
+        tuple(_initial_values(system, language)),
+        tuple(Value(_latex(scene, p.name), p.name, p.value, _unit(p.unit), language) for p in scene.parameters),
+        tuple(_part(language, str(i), chapter, substeps=substeps) for i, chapter in enumerate(chapters, 1)),
     )
 
 
@@ -107,30 +109,32 @@ def _latex(scene: Scene, name: str) -> str:
     return next((symbol.typeset for symbol in scene.names.symbols if symbol.name == name), name)
 
 
-def _initial_values(system: System) -> Iterator[Value]:
+def _initial_values(system: System, language: str) -> Iterator[Value]:
     """q(0) and q̇(0) of every free coordinate."""
     scene = system.scene
     typography = Typography(scene.names, decimals=scene.writes_decimals)
     for coordinate in scene.free:
         latex = _latex(scene, coordinate.name)
         unit = _unit(coordinate.unit)
-        yield Value(f"{latex}(0)", coordinate.name, coordinate.value, unit)
+        yield Value(f"{latex}(0)", coordinate.name, coordinate.value, unit, language)
         rate = latex_text(system.rate(coordinate.name), typography)
-        yield Value(f"{rate}(0)", f"dot({coordinate.name})", coordinate.rate, f"{unit or 1}/s")
+        yield Value(f"{rate}(0)", f"dot({coordinate.name})", coordinate.rate, f"{unit or 1}/s", language)
 
 
 def _unit(unit: str) -> str:
     return "" if unit == "1" else UserText(unit).line
 
 
-def _part(number: str, chapter: Mapping[str, object], *, substeps: bool) -> Part:
+def _part(language: str, number: str, chapter: Mapping[str, object], *, substeps: bool) -> Part:
     steps = cast("Sequence[Mapping[str, object]]", chapter["steps"])
-    lines = (line for i, step in enumerate(steps, 1) for line in _lines(step, f"{number}.{i}", 0))
+    lines = (line for i, step in enumerate(steps, 1) for line in _lines(language, step, f"{number}.{i}", 0))
     return Part(words(chapter["title"]), tuple(line for line in lines if substeps or line.depth == 0))
 
 
-def _lines(step: Mapping[str, object], number: str, depth: int) -> Iterator[Line]:
-    yield Line(number, depth, words(step["title"]), words(step["text"]), str(step["latex"]))
+def _lines(language: str, step: Mapping[str, object], number: str, depth: int) -> Iterator[Line]:
+    yield Line(
+        number, depth, words(step["title"]), words(step["text"]), with_decimal_mark(language, str(step["latex"]))
+    )
     below = cast("Sequence[Mapping[str, object]]", step["substeps"])
     for i, substep in enumerate(below, 1):
-        yield from _lines(substep, f"{number}.{i}", depth + 1)
+        yield from _lines(language, substep, f"{number}.{i}", depth + 1)

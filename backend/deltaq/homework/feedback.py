@@ -10,7 +10,7 @@ from ..language.parser import parse
 from ..language.symbols import Symbols
 from ..language.sympy_algebra import to_sympy
 from ..mechanics.scene import Scene
-from ..narration.catalog import message, sentence, text
+from ..narration.catalog import message, sentence, text, with_decimal_mark
 from ..narration.matrix_writing import number_latex
 from ..narration.prose import CatalogText, formula, joined
 from ..narration.things import called
@@ -154,7 +154,7 @@ def _told(example: Counterexample, scene: Scene, language: str) -> CatalogText:
 
 def _number(value: float, language: str) -> str:
     """With the decimal sign of the language, as LaTeX."""
-    return number_latex(value, text(language, "homework.decimal"))
+    return with_decimal_mark(language, number_latex(value))
 
 
 def _about(verdict: Verdict, scene: Scene, language: str) -> dict[str, str | CatalogText]:

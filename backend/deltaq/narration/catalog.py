@@ -18,6 +18,7 @@ from ..errors import Problem
 from .prose import CatalogText, joined, plain, words
 
 LANGUAGES = ("en", "de")
+_DECIMAL_POINT = re.compile(r"(?<=\d)\.(?=\d+(?!\d|\s*(?:em|ex|mu|pt)\b))")
 Catalog = Mapping[str, object]
 
 
@@ -52,6 +53,12 @@ def text(language: str, key: str, **parameters: object) -> CatalogText:
     """The sentence under a key, its {placeholders} put in; where {count} is 1, the one under `KEY-one`, if there is."""
     is_one = str(parameters.get("count")) == "1" and _entry(language, f"{key}-one") is not None
     return filled(template(language, f"{key}-one" if is_one else key), parameters)
+
+
+def with_decimal_mark(language: str, latex: str) -> str:
+    """A formula whose numbers have the decimal mark of a language: 0{,}5 in German; lengths as 0.3em stay."""
+    mark = template(language, "rules.decimal")
+    return latex if mark == "." else _DECIMAL_POINT.sub(f"{{{mark}}}", latex)
 
 
 def keys(language: str, key: str) -> tuple[str, ...]:

@@ -86,10 +86,10 @@ def _number(value: sp.Expr) -> str:
     return _power(*number_parts(value))
 
 
-def number_latex(value: float, decimal: str = ".") -> str:
+def number_latex(value: float) -> str:
     """A number with four digits as LaTeX, with a power of ten where it has one; zero without a sign."""
     mantissa, _, exponent = f"{value + 0.0:.{DIGITS}g}".partition("e")
-    return _power(mantissa.replace(".", decimal), int(exponent or 0))
+    return _power(mantissa, int(exponent or 0))
 
 
 def _power(mantissa: str, exponent: int) -> str:

@@ -14,7 +14,7 @@ from ..derivation.step import Chapter, Derivation, Line, Relation, Step, Summand
 from ..language.memory import cached_method
 from ..language.plain_printer import plain
 from .aligned import aligned
-from .catalog import filled, keys, template, text
+from .catalog import filled, keys, template, text, with_decimal_mark
 from .letters import Letters, in_sentence
 from .marks import without_classes
 from .matrix_writing import number_latex
@@ -164,7 +164,7 @@ class Narrator:
 
     def _name(self, key: str, value: str) -> CatalogText:
         if key == "rate":
-            return formula(number_latex(float(value), "{,}" if self.language == "de" else "."))
+            return formula(with_decimal_mark(self.language, number_latex(float(value))))
         if key in WORDS:
             return joined("; ", (self._sentence(f"rules.words.{each}", {}) for each in value.split(", ") if each))
         if key != "coordinate":

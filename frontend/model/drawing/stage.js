@@ -31,6 +31,10 @@ const GROWTH = 1.25;
 const SEEN = 0.9;
 const CHEAP = 2;
 const STEPS = 8;
+/** The origin, from which coordinates are drawn, is seen where it is no farther away than the motion is large, times this. */
+const REACH = 2;
+/** Metres that a motion is said to be large where it is at rest. */
+const LEAST = 0.5;
 /** Bodies have a size: part of the smaller side that they take about their place. */
 const BODY = 0.035;
 
@@ -47,7 +51,7 @@ export function viewOf(scene, trajectory) {
   const paths = Object.values(trajectory.positions);
   const own = scene.drawing?.view;
   const points = paths.map((path) => path.map(viewBy(FRONT, growsUp(scene))));
-  return own ? widened(/** @type {Box} */ (own), points) : padded(boundsOf(points.flat()));
+  return own ? widened(/** @type {Box} */ (own), points) : padded(withOrigin(boundsOf(points.flat())));
 }
 
 /** @param {readonly Pixel[]} points @returns {Box} */
@@ -63,9 +67,20 @@ function boundsOf(points) {
   return box[0] <= box[1] ? box : [-1, 1, -1, 1];
 }
 
+/** @param {Box} box */
+const largest = ([x0, x1, y0, y1]) => Math.max(x1 - x0, y1 - y0, LEAST);
+
+/** Grown up to the origin, where that is near. @param {Box} box @returns {Box} */
+function withOrigin(box) {
+  const [x0, x1, y0, y1] = box;
+  const away = Math.max(x0, -x1, y0, -y1);
+  if (away > REACH * largest(box)) return box;
+  return [Math.min(x0, 0), Math.max(x1, 0), Math.min(y0, 0), Math.max(y1, 0)];
+}
+
 /** @param {Box} box @returns {Box} */
 function padded([x0, x1, y0, y1]) {
-  const margin = 0.15 * Math.max(x1 - x0, y1 - y0, 0.5);
+  const margin = 0.15 * largest([x0, x1, y0, y1]);
   return [x0 - margin, x1 + margin, y0 - margin, y1 + margin];
 }
 
