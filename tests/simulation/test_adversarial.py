@@ -12,7 +12,7 @@ from random import Random
 import numpy as np
 import pytest
 from tests.simulation.adversaries import Draw, aimed_drive, on_line, pulse, under_waves
-from tests.simulation.adversaries_of_state import KINDS, chain_of_springs, relative_coordinates
+from tests.simulation.adversaries_of_state import KINDS, chain_of_springs, contact, relative_coordinates
 from tests.simulation.judging import Motion, Trial, Verdict, draw_motions, draw_trial, judge
 
 EACH, SEED = 3, "few"
@@ -29,6 +29,16 @@ def told(verdict: Verdict) -> str:
 @pytest.mark.parametrize("kind", KINDS, ids=lambda kind: kind.__name__)
 def test_no_answer_is_silently_wrong(kind: Draw) -> None:
     verdicts = [judge(draw_trial(motion, random)) for motion, random in draw_motions(kind, SEED, EACH)]
+    assert [told(v) for v in verdicts if v.is_silently_wrong()] == []
+
+
+@pytest.mark.parametrize("part", [0.3, 1.5, 4.0])  # of a stay on the spring
+@pytest.mark.parametrize("method", ["taylor", "symplectic-euler", "gauss-6"])
+def test_steps_longer_than_the_time_between_two_bends_of_a_force(method: str, part: float) -> None:
+    motions = [contact(Random(f"bends {number}")) for number in range(12)]
+    drawn = [Trial(motion, method, ("step", part * motion.traps[0]), 101) for motion in motions]
+    verdicts = [judge(trial) for trial in drawn if trial.motion.t_end / trial.accuracy[1] < 20_000]
+    assert len(verdicts) > 3
     assert [told(v) for v in verdicts if v.is_silently_wrong()] == []
 
 

@@ -29,6 +29,7 @@ ROUNDS = 4  # of shorter steps where a run was blind
 BY_EVENTS = 0.5  # of the difference, where a motion goes on behind events
 BY_IMPACTS = 1.0  # times the differences of runs that are shaken otherwise
 SAME_PLACE = 1e-6  # of the time: runs that end so close to each other end at the same place
+ORDERS = 4  # more for each finer run with steps that are given
 BRIEF = 5_000  # right-hand sides; fewer take less time than a second thread needs to begin
 
 
@@ -142,12 +143,12 @@ class Integrator:
         whole = Pieces.whole(self.problem.t_end)
 
         def compared(pieces: Pieces) -> Attempt:
-            fine = Steps(step, pieces=pieces, ratio=FINER, is_recorded=True, shaken=self._shaken)
+            fine = Steps(step, pieces=pieces, ratio=FINER, is_recorded=True, order=self._order(1), shaken=self._shaken)
             runs = self._both(Steps(step, pieces=whole), fine)
             return Attempt(runs[0], runs, self._estimated(*runs, self.refinement.factor_of_coarse))
 
         found, pieces = self._seen(self.audit.before(USUAL), compared)
-        if not pieces.is_whole or self.problem.model.tape.has_choices:
+        if not pieces.is_whole or self._is_cut:
             found = self._confirmed(found, step, pieces)
         worst = USUAL if found.estimate is None else found.estimate.worst
         return replace(found, too_long=self.audit.before(worst).needed_by(step))
@@ -155,17 +156,33 @@ class Integrator:
     def _confirmed(self, found: Attempt, step: float, pieces: Pieces) -> Attempt:
         """The attempt, its finer run held against a third.
 
-        Where pieces bound its steps, nothing says that it is right; and where forces jump along the way, both runs may
-        cross a jump at the same part of a step and be wrong alike.
+        Where pieces bound its steps, nothing says that it is right; and where forces jump along the way, or events
+        happen there, both runs may come there at the same part of a step and be wrong alike.
         """
         fine = found.runs[-1]
         ratio = FINER**2 if pieces.is_whole else FINER
-        third = self._run(Steps(step, pieces=pieces.scaled(1.0 / FINER), ratio=ratio))
+        finer = Steps(
+            step, pieces=pieces.scaled(1.0 / FINER), ratio=ratio, order=self._order(2), shaken=2 * self._shaken
+        )
+        third = self._run(finer)
         if found.estimate is None or not third.is_complete:
             return found
         of_given = estimate(self.judge, found.chosen, third, self.refinement.factor_of_coarse)
         of_fine = estimate(self.judge, fine, third, self.refinement.factor_of_coarse)
         return replace(found, estimate=larger(of_given, of_fine), discarded=(*found.discarded, third))
+
+    def _order(self, finer: int) -> int | None:
+        """The order of a finer run with given steps, of a method whose order may be chosen.
+
+        A series ends where a force jumps or an event happens, however long its step: between two of them that lie
+        closer together than steps, runs of one order err alike.
+        """
+        return self.method.order + finer * ORDERS if self._is_cut else None
+
+    @property
+    def _is_cut(self) -> bool:
+        """Whether forces jump or bend along the way, or events happen there."""
+        return self.modes is not None or self.problem.model.tape.has_choices
 
     def _estimated(self, coarse: Run, fine: Run, factor: float) -> Estimate | None:
         """The error by two runs; None where one of them has not even a first sample."""
