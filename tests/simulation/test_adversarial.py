@@ -33,11 +33,11 @@ def test_no_answer_is_silently_wrong(kind: Draw) -> None:
 
 
 @pytest.mark.parametrize("part", [0.3, 1.5, 4.0])  # of a stay on the spring
-@pytest.mark.parametrize("method", ["taylor", "symplectic-euler", "gauss-6"])
+@pytest.mark.parametrize("method", ["taylor", "symplectic-euler", "stormer-verlet"])
 def test_steps_longer_than_the_time_between_two_bends_of_a_force(method: str, part: float) -> None:
-    motions = [contact(Random(f"bends {number}")) for number in range(12)]
+    motions = [contact(Random(f"bends {number}")) for number in range(8)]
     drawn = [Trial(motion, method, ("step", part * motion.traps[0]), 101) for motion in motions]
-    verdicts = [judge(trial) for trial in drawn if trial.motion.t_end / trial.accuracy[1] < 20_000]
+    verdicts = [judge(trial) for trial in drawn if trial.motion.t_end / trial.accuracy[1] < 1_000]
     assert len(verdicts) > 3
     assert [told(v) for v in verdicts if v.is_silently_wrong()] == []
 

@@ -272,6 +272,24 @@ def test_no_step_runs_over_the_kink_of_a_spring_on_one_side(method: str) -> None
     assert found.transitions == ()
 
 
+def test_steps_that_are_unstable_between_two_switches_end_soon_and_it_is_said() -> None:
+    """On the buffer ω = 400/s, and steps of 1/40 s: what they throw back is too fast for all that comes after."""
+    buffer = {"kind": "potential", "name": "buffer", "energy": "80000*max(-x, 0)^2 + 9.81*x"}
+    scene = write_scene(on_line([buffer], value=1.0, rate=0.0))
+    answer: Any = run({"scene": scene, "t_end": 4, "step": 0.025, "method": "rk4"})
+    assert (answer["status"], answer["cost"]["steps"] < 3000) == ("step_limit", True)
+    assert answer["reason"]["code"] == answer["remedy"]["code"] == "switches_within_steps"
+    told = answer["reason"]["parameters"]
+    assert (told["step"], told["method"], told["t"]) == (0.025, "rk4", pytest.approx(answer["t_reached"], abs=1e-3))
+    sound: Any = run({"scene": scene, "t_end": 4, "tolerance": 1e-6, "method": "rk4"})
+    assert sound["status"] == "ok"
+    free = [t for t in answer["t"] if t < math.sqrt(2.0 / 9.81)]  # up to the buffer the part that was computed is good
+    assert len(free) > 30
+    off = [abs(x - 1.0 + 9.81 * t**2 / 2.0) for t, x in zip(free, answer["coordinates"]["x"], strict=False)]
+    assert all(error <= told + 1e-12 for error, told in zip(off, answer["error"]["estimate"], strict=False))
+    assert max(off[:-3]) < 1e-9
+
+
 def test_the_answer_tells_events() -> None:
     found = run({"scene": write_scene(scene_here("braked-oscillator")), "t_end": 6, "tolerance": 1e-6})
     assert found["status"] == "ok"

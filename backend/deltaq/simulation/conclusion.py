@@ -63,7 +63,8 @@ def _failed(
     if step is not None and failed.result.outcome == TOO_LARGE:
         return _grown(problem, method, step, told)
     where = {"name": failed.at[:MOST]} if failed.at else {}
-    return outcome_of(int(failed.result.outcome), told | {"steps": steps} | where)
+    given = {"step": short(step)} if step is not None else {}
+    return outcome_of(int(failed.result.outcome), told | {"steps": steps} | given | where)
 
 
 def _unseen(best: Attempt, step: float | None, told: dict[str, Number]) -> Outcome | None:

@@ -19,7 +19,7 @@ from .kernels.loop import Result
 from .kernels.motion import FINE, MANY_EVENTS, STEP_LIMIT, UNSETTLED
 from .method import Method
 from .mode_state import ModeState
-from .outcome import CHATTERS, NO_DIRECTION, OUT_OF_REACH, SLIDES
+from .outcome import CHATTERS, NO_DIRECTION, OUT_OF_REACH, SLIDES, WITHIN_STEPS
 from .pieces import Pieces
 from .problem import Floats, Problem
 from .run import Mesh, Run, Steps, run
@@ -29,6 +29,7 @@ from .transitions import NoDirectionError, Transition, UnsettledError, begun, pa
 MOST = 5000  # events in one run
 AT_ONCE = 50  # events at the same time, by rounding
 CROWD, CROWDED = 400, 1e-4  # so many switches in such a part of the span: the state slides along a kink
+IN_A_STEP, ALWAYS = 2.0, 1000  # switches in one given step on average, and in any run
 NEAR = 1e-5  # s, of differences
 SAME = 1e-13  # of the time
 SHAKE = 8.0 * 2.0**-52  # of a rate, and of what it changes by up to the time
@@ -40,6 +41,7 @@ class _Record:
 
     out: Floats
     held: Floats
+    most_switches: float
     filled: int = 1
     work: float = 0.0
     steps: int = 0
@@ -51,6 +53,7 @@ class _Record:
     transitions: list[Transition] = field(default_factory=list)
     last: float = 0.0
     at_once: int = 0
+    switches: int = 0
     switched: deque[float] = field(default_factory=lambda: deque(maxlen=CROWD))
 
     def is_crowded(self, span: float) -> bool:
@@ -104,7 +107,8 @@ def run_on(problem: Problem, modes: Modes, method: Method, times: Floats, cancel
     except SlidingError as sliding:
         return _not_begun(problem, times, steps, modes.name_of(sliding.row))
     width, count = current.problem.state.size, len(problem.reactions)
-    record = _Record(np.zeros((times.size, width)), np.zeros((times.size, count)))
+    most_switches = _most_switches(steps, float(times[-1]))
+    record = _Record(np.zeros((times.size, width)), np.zeros((times.size, count)), most_switches)
     record.out[0, : 2 * problem.degrees] = problem.state[: 2 * problem.degrees]
     while True:
         stretch, ahead = _problem(current, record.steps), _ahead(times, current.time)
@@ -122,6 +126,13 @@ def run_on(problem: Problem, modes: Modes, method: Method, times: Floats, cancel
         current = _shaken(behind, len(record.meshes), steps.shaken)
         if current.time >= times[-1]:
             return _whole(record, times, FINE, float(times[-1]), found)
+
+
+def _most_switches(steps: Steps, span: float) -> float:
+    """How often forces may switch: steps of a given size that are unstable between switches would find ever more."""
+    if steps.tolerance > 0.0:
+        return np.inf
+    return max(ALWAYS, IN_A_STEP * span * steps.ratio / steps.size)
 
 
 @dataclass(frozen=True)
@@ -144,9 +155,15 @@ def _behind(current: ModeState, event: Event, record: _Record, span: float) -> M
         return _End(SLIDES, current.modes.name_of(sliding.row))
     if record.is_crowded(span):
         return _End(CHATTERS, current.modes.name_of_watched(event.index))
-    if len(record.transitions) >= MOST or record.at_once >= AT_ONCE:
-        return _End(MANY_EVENTS)
-    return behind
+    return _too_often(record) or behind
+
+
+def _too_often(record: _Record) -> _End | None:
+    """Why no more events are followed, if they are not."""
+    if record.switches > record.most_switches:
+        return _End(WITHIN_STEPS)
+    is_over = len(record.transitions) >= MOST or record.at_once >= AT_ONCE
+    return _End(MANY_EVENTS) if is_over else None
 
 
 def _problem(current: ModeState, taken: int) -> Problem:
@@ -196,6 +213,7 @@ def _next(current: ModeState, event: Event, record: _Record) -> ModeState:
     record.at_once = record.at_once + 1 if is_same else 0
     record.last = event.time
     if kind == "switch":
+        record.switches += 1
         record.switched.append(event.time)
     else:
         left = np.array([*after.q, *after.v, record.work][: event.state.size])

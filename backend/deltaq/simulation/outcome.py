@@ -27,7 +27,7 @@ from .kernels.motion import (
 
 Number: TypeAlias = str | int | float
 # No kernel says so: of runs that go on behind events; of those whose steps are too short to come anywhere.
-NO_DIRECTION, OUT_OF_REACH, SLIDES, CHATTERS = (UNSETTLED + k for k in range(1, 5))
+NO_DIRECTION, OUT_OF_REACH, SLIDES, CHATTERS, WITHIN_STEPS = (UNSETTLED + k for k in range(1, 6))
 
 JUDGED = frozenset({"ok", "event", "stopped", "guide_jumps", "horizon_reached", "tolerance_missed"})
 
@@ -69,6 +69,7 @@ _WORDS: Mapping[int, tuple[Status, str]] = MappingProxyType(
         OUT_OF_REACH: ("step_limit", "out_of_reach"),
         SLIDES: ("unresolved", "slides_along_kinks"),
         CHATTERS: ("unresolved", "switches_to_and_fro"),
+        WITHIN_STEPS: ("step_limit", "switches_within_steps"),
     }
 )
 
