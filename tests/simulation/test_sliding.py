@@ -344,3 +344,42 @@ def test_coupled_masses_slide_in_each_of_their_signs_as_with_dry_friction() -> N
     assert [each.kind for each in one.transitions] == [kind for kind, _ in told_there]
     assert [each.time for each in one.transitions] == pytest.approx([time for _, time in told_there], abs=1e-9)
     assert one.values[-1] == pytest.approx(other.values[-1], abs=1e-9)
+
+
+@FEW
+@pytest.mark.parametrize("middle", [0.0, 1.0, -4.0, 100.0])
+def test_swings_that_pile_up_in_a_kink_end_in_it(middle: float, method: str) -> None:
+    """Back with 3/2 and off with 5/2, each swing goes 3/5 as far as the one before: all of them last 8.2 s."""
+    forces = ["-2*sign(x - a) - sign(dot(x))/2"]
+    found = motion(moving(forces, [(1.0 + middle, 0.0)], a=middle), 20.0, method)
+    assert found.outcome.status == "ok"
+    assert [kind for kind, _ in told(found)] == ["slide"]
+    assert found.transitions[0].error is None  # of the swings that were not followed nothing is known
+    every = (math.sqrt(4.0 / 3.0) + math.sqrt(12.0 / 25.0)) / (1.0 - math.sqrt(0.6))
+    assert found.transitions[0].time == pytest.approx(every, abs=2e-6 * math.sqrt(max(1.0, abs(middle))))
+    late = found.times > every
+    assert np.abs(found.values[late, 0] - middle).max() <= 1e-14 * max(1.0, abs(middle))
+    assert not found.rates[late].any()
+    assert np.ptp(_energy(found) - found.work) < 1e-9
+
+
+@FEW
+@pytest.mark.parametrize("energy", ["k*max(x, -x)", "k*abs(x) + 0*max(x, 1)", "-k*min(x, -x)"])
+def test_what_rests_in_a_kink_is_pulled_out_by_more_than_it_holds(energy: str, method: str) -> None:
+    """V = k|x| holds up to k: P t pulls it out at t = k/P, and x is a cubic in what is over."""
+    asked = moving(["P*t"], [(0.0, 0.0)], k=2.0, P=1.0)
+    asked["loads"] = [*asked["loads"], {"kind": "potential", "name": "groove", "energy": energy}]
+    found = motion(asked, 5.0, method, 1e-10)
+    assert (found.outcome.status, told(found)) == ("ok", [("leave", "x")])
+    assert found.transitions[0].time == pytest.approx(2.0, abs=1e-10)
+    assert found.values[:, 0] == pytest.approx(np.maximum(found.times - 2.0, 0.0) ** 3 / 6.0, abs=1e-9)
+
+
+def test_a_force_that_switches_too_often_ends_a_motion_soon_and_it_is_said() -> None:
+    """A hundred thousand swings of a billionth of a millimetre, in k|x| without loss."""
+    asked = moving(["0"], [(1e-12, 0.0)], k=2.0)
+    asked["loads"] = [{"kind": "potential", "name": "groove", "energy": "k*max(x, -x)"}]
+    answer: Any = run({"scene": asked, "t_end": 10, "tolerance": 1e-6})
+    assert (answer["status"], answer["reason"]["code"]) == ("unresolved", "switches_to_and_fro")
+    assert answer["reason"]["parameters"]["name"] == "x"
+    assert max(map(abs, answer["coordinates"]["x"])) < 2e-12

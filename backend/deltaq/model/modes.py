@@ -37,7 +37,7 @@ from .symbols import Symbols
 from .symengine_algebra import to_symengine
 
 ONE = se.Integer(1)
-ENDING_STEPS = ("max", "min", "step", "heaviside")  # what only bends, or jumps with a place, ends steps if written so
+ENDING_STEPS = ("max", "min", "step", "heaviside")  # what only bends ends steps if it is written so
 
 
 @dataclass(frozen=True)
@@ -56,11 +56,12 @@ class Modes:
     """The smooth model of a scene with events to go on behind, and what its parameters and watched values mean.
 
     The parameters behind the scene's own are σ of every kink, friction and switch, then φ of every row (frictions,
-    switches, contacts), then an offset ε of every watched value. A switch is what changes its sign where a force jumps
-    with a rate. Watched are, in this order: the scene's other events, kinks (σ s), frictions and switches (σ w while
-    slipping, F₀ − λ; then F₀ + λ, with F₀ = 1 of a switch), contacts (g, or λ at rest). `facts` gives for each row a,
-    w, γ and the direction of its reaction; for each friction and switch F₀; for each contact g, ∂g/∂t, e; the values s
-    of all kinks; λ of every row; at last for each friction the force R as it is, −σF while slipping, λ while sticking.
+    switches, contacts), then an offset ε of every watched value. A switch is what changes its sign where a force jumps:
+    first those with a rate, w, then those of places alone, s with w = ṡ, of which there are `pins`. Watched are, in
+    this order: the scene's other events, kinks (σ s), frictions and switches (σ w or σ s while slipping, F₀ − λ; then
+    F₀ + λ, with F₀ = 1 of a switch), contacts (g, or λ at rest). `facts` gives for each row a, w, γ and the direction
+    of its reaction; for each friction and switch F₀; for each contact g, ∂g/∂t, e; the values s of all kinks, then of
+    pins; λ of every row; at last for each friction the force R as it is, −σF while slipping, λ while sticking.
     `coupled` are pairs of rows of which a force has a product of signs, so that nothing tells what both hold together.
     """
 
@@ -72,12 +73,18 @@ class Modes:
     frictions: tuple[str, ...]  # names of loads
     kinks: tuple[str, ...]  # as the language of scenes has them, as the switches
     switches: tuple[str, ...]
+    pins: int
     coupled: frozenset[tuple[int, int]]
 
     @property
     def bounded(self) -> int:
         """How many rows have reactions with bounds: frictions, then switches."""
         return len(self.frictions) + len(self.switches)
+
+    @property
+    def first_pin(self) -> int:
+        """The first row of a switch of places alone."""
+        return self.bounded - self.pins
 
     @property
     def rows(self) -> int:
@@ -92,6 +99,11 @@ class Modes:
     def name_of(self, row: int) -> str:
         """The name of a friction, or a switch as the language of scenes has it."""
         return (*self.frictions, *self.switches)[row]
+
+    def is_pin(self, index: int) -> bool:
+        """Whether a watched value is that of a switch of places alone."""
+        place = index - len(self.ending) - len(self.kinks)
+        return 2 * self.first_pin <= place < 2 * self.bounded
 
     def name_of_watched(self, index: int) -> str:
         """The same of a watched value, or a kink; contacts and the scene's other events have none here."""
@@ -126,6 +138,7 @@ def _made_once(mechanics: Mechanics) -> Modes | None:
         tuple(part.source for part in found.frictions),
         tuple(map(found.signs.spelt, found.kinks)),
         tuple(map(found.signs.spelt, found.switches)),
+        found.pins,
         frozenset(found.coupled()),
     )
 
@@ -165,7 +178,8 @@ class _Assembly:
         power = self._smooth(self.plain.power)
         self.arrows = {name: tuple(map(self._smooth, each)) for name, each in self.plain.arrows.items()}
         limits = [self.signs.smooth(guided_into(scene, to_symengine(part.static, symbols))) for part in self.frictions]
-        self.switches = self.signs.jumping(forcing)
+        of_rates, of_places = self.signs.jumping(forcing)
+        self.switches, self.pins = [*of_rates, *of_places], len(of_places)
         self.kinks = [i for i in range(len(self.signs.sigmas)) if i not in self.switches]
         own = [self.signs.sigmas[i] for i in self.switches]
         self._forcing, self._forces = ([by_signs(each, own) for each in several] for several in (forcing, forces))
@@ -210,8 +224,8 @@ class _Assembly:
 
     def _row_of_switch(self, index: int) -> Row:
         """−f₁, and what it takes."""
-        sigma = self.signs.sigmas[index]
-        row = self._row(self.signs.values[index])
+        sigma, value = self.signs.sigmas[index], self.signs.values[index]
+        row = self._row(self._change(value) if index in self.switches[len(self.switches) - self.pins :] else value)
         return replace(row, along=tuple(-f.diff(sigma) for f in self._forcing), power=-self._power.diff(sigma))
 
     def _change(self, g: Expr) -> Expr:
@@ -303,12 +317,17 @@ class _Assembly:
             yield self.signs.sigmas[index] * self.signs.values[index] + next(offsets)
         for k, row in enumerate(self.rows[: len(self.bounded)]):
             flag, reaction, limit = self.flags[k], self.reactions[k], self._between(self.limits[k])
-            slipping = self.bounded[k] * row.rate + next(offsets)
+            slipping = self.bounded[k] * self._level(k, row) + next(offsets)
             yield (ONE - flag) * slipping + flag * (limit - reaction)
             yield (ONE - flag) + flag * (limit + reaction) + next(offsets)
         for j, index in enumerate(self.contacts, len(self.bounded)):
             flag = self.flags[j]
             yield (ONE - flag) * (self.plain.events[index] + next(offsets)) + flag * self.reactions[j]
+
+    def _level(self, k: int, row: Row) -> Expr:
+        """What changes its sign where a friction or a switch turns."""
+        first = len(self.bounded) - self.pins
+        return row.rate if k < first else self.signs.values[self.switches[k - len(self.frictions)]]
 
     @property
     def facts(self) -> list[Expr]:
@@ -321,7 +340,9 @@ class _Assembly:
             event, restitution = self.plain.events[index], self.scene.events[index].restitution
             coefficient = ZERO if restitution is None else to_symengine(restitution.tree, self.plain.symbols)
             found += [event, event.diff(self.plain.symbols.time), coefficient]
-        return [*found, *(self.signs.values[i] for i in self.kinks), *self.reactions, *self._friction_forces()]
+        pins = self.switches[len(self.switches) - self.pins :]
+        values = (self.signs.values[i] for i in (*self.kinks, *pins))
+        return [*found, *values, *self.reactions, *self._friction_forces()]
 
     def _friction_forces(self) -> Iterator[Expr]:
         """R = φ λ − (1 − φ) σ F"""

@@ -29,6 +29,7 @@ class Smoothing:
         self.values: list[Expr] = []
         self.sigmas: list[Expr] = []
         self._states, self._rates = (set(symbols.inputs[first : 2 * count]) for first in (0, count))
+        self._places = self._states - self._rates
         self._symbols, self._known, self._make = symbols, known, make
 
     def smooth(self, expression: Expr) -> Expr:
@@ -67,17 +68,17 @@ class Smoothing:
         self.sigmas.append(self._make())
         return self.sigmas[-1]
 
-    def jumping(self, expressions: Iterable[Expr]) -> list[int]:
-        """Which of the switching functions depend on rates, and have one of the expressions jump at their zeros."""
-        parts = list(expressions)
-        return [
-            i
-            for i, (sigma, value) in enumerate(zip(self.sigmas, self.values, strict=True))
-            if value.free_symbols & self._rates and self._jumps(parts, sigma, value)
-        ]
+    def jumping(self, expressions: Iterable[Expr]) -> tuple[list[int], list[int]]:
+        """The switching functions at whose zeros an expression jumps: those of rates, and those of places alone."""
+        several = list(expressions)
+        signs = enumerate(zip(self.sigmas, self.values, strict=True))
+        found = [i for i, (sigma, value) in signs if self._jumps(several, sigma, value)]
+        of_rates = [i for i in found if self.values[i].free_symbols & self._rates]
+        return of_rates, [i for i in found if i not in of_rates]
 
     def _jumps(self, expressions: Iterable[Expr], sigma: Expr, value: Expr) -> bool:
-        return any(not _vanishes(_jump(each, sigma), value, self._rates) for each in expressions)
+        variables = value.free_symbols & self._rates or value.free_symbols & self._places
+        return any(not _vanishes(_jump(each, sigma), value, variables) for each in expressions)
 
     def spelt(self, index: int) -> str:
         """What has the zeros of a switching function, in the language of scenes."""
@@ -109,14 +110,14 @@ def _jump(expression: Expr, sigma: Expr) -> Expr:
     return above - below
 
 
-def _vanishes(jump: Expr, value: Expr, rates: set[Expr]) -> bool:
-    """Whether a jump vanishes where a switching function is zero, as far as it is linear in a rate."""
+def _vanishes(jump: Expr, value: Expr, variables: set[Expr]) -> bool:
+    """Whether a jump vanishes where a switching function is zero, as far as it is linear in one of some variables."""
     if se.expand(jump) == 0:
         return True
-    for rate in sorted(value.free_symbols & rates, key=str):
-        slope = value.diff(rate)
-        if rate not in slope.free_symbols:
-            return bool(se.expand(jump.subs({rate: rate - value / slope})) == 0)
+    for each in sorted(variables, key=str):
+        slope = value.diff(each)
+        if each not in slope.free_symbols:
+            return bool(se.expand(jump.subs({each: each - value / slope})) == 0)
     return bool(jump.subs({value: se.Integer(0)}) == 0)
 
 

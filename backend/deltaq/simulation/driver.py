@@ -165,7 +165,7 @@ def _transitions(best: Attempt) -> tuple[Transition, ...]:
     pairs = zip(found, (*others, *(None,) * len(found)), strict=False)
     return tuple(
         replace(one, error=abs(one.time - other.time) + SPACING * one.time)
-        if is_known and other is not None and (other.name, other.kind) == (one.name, one.kind)
+        if is_known and not one.ends_many and other is not None and (other.name, other.kind) == (one.name, one.kind)
         else one
         for one, other in pairs
     )

@@ -206,7 +206,7 @@ def _next(current: ModeState, event: Event, record: _Record) -> ModeState:
     n = len(current.q)
     before = replace(current, time=event.time, q=event.state[:n].copy(), v=event.state[n : 2 * n].copy())
     after, name, kind = passed(before, event.index)
-    loss = before.kinetic - after.kinetic if kind in ("impact", "rest") else 0.0
+    loss = before.kinetic - after.kinetic if kind in ("impact", "rest", "slide") else 0.0
     reached = record.moved(event, after.time, n)
     record.work += (float(event.state[-1]) if event.state.size > 2 * n else 0.0) - loss
     is_same = event.time - record.last <= SAME * max(1.0, event.time)
@@ -217,7 +217,8 @@ def _next(current: ModeState, event: Event, record: _Record) -> ModeState:
         record.switched.append(event.time)
     else:
         left = np.array([*after.q, *after.v, record.work][: event.state.size])
-        record.transitions.append(Transition(name, after.time, kind, reached, left, loss))
+        is_last = kind == "slide" and current.modes.is_pin(event.index)
+        record.transitions.append(Transition(name, after.time, kind, reached, left, loss, ends_many=is_last))
     return after
 
 

@@ -34,7 +34,7 @@ class Facts:
 
     Of the rows `a` and the directions of their reactions `along`, shape (rows, n) each, the rates `w`, γ in `bias`, and
     λ in `reactions`, shape (rows,) each; F₀ in `limits`, shape (frictions and switches,); `gaps` and e in
-    `restitutions`, shape (contacts,); values of `kinks`, shape (kinks,).
+    `restitutions`, shape (contacts,); values of `kinks`, shape (kinks,), and of `pins`, shape (pins,).
     """
 
     a: Floats
@@ -45,6 +45,7 @@ class Facts:
     gaps: Floats
     restitutions: Floats
     kinks: Floats
+    pins: Floats
     reactions: Floats
 
 
@@ -69,15 +70,16 @@ class ModeState:
     def facts(self) -> Facts:
         """The rows with the flags of the mode."""
         n, rows, bounded = len(self.q), self.modes.rows, self.modes.bounded
-        kinks = len(self.modes.kinks)
+        kinks, pins = len(self.modes.kinks), self.modes.pins
         found = self.modes.facts.table(self.row)[0]
         parts = found[: rows * (2 * n + 2)].reshape(rows, 2 * n + 2)
         rest = found[rows * (2 * n + 2) :]
         gaps = rest[bounded : bounded + 3 * len(self.modes.contacts)].reshape(-1, 3)
         end = bounded + gaps.size
+        last = end + kinks + pins
         return Facts(
             parts[:, :n], parts[:, n + 2 :], parts[:, n], parts[:, n + 1], rest[:bounded], gaps[:, 0], gaps[:, 2],
-            rest[end : end + kinks], rest[end + kinks : end + kinks + rows],
+            rest[end : end + kinks], rest[end + kinks : last], rest[last : last + rows],
         )  # fmt: skip
 
     @cached_property

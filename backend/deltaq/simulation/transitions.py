@@ -11,18 +11,21 @@ Source: Pfeiffer, Glocker, Multibody Dynamics with Unilateral Contacts, ch. 4–
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass, replace
+from typing import TypeAlias
 
 import numpy as np
 
 from ..model.modes import Modes
 from .mode_state import Facts, Mode, ModeState, size_of
 from .problem import Floats, Problem
-from .sliding import SLACK, rate_of, settled, side_left_to, unkept
+from .sliding import SLACK, draws, on_side, rate_of, settled, side_left_to, unkept
 
 STILL = 1e-12  # a rate, relative to the largest
 HEIGHT = 1e-15  # by which rounding lifts a rebound, relative to the coordinates
 LOWEST = 1e-12  # the highest rebound that is taken for rest, relative to the coordinates; of what loses nothing, too
+OFF_KINK = 1e-14  # how far a motion goes off a kink that is taken for rest in it, relative to the coordinates
 LATE = 1e-6  # s; so much behind the zero of a gap its event is found at most
 ROUNDING = 1e-15
 HARDLY = 1e-13  # of a rate of slipping
@@ -37,7 +40,8 @@ MOST_IMPACTS = 1000  # one after the other at one time
 class Transition:
     """An event behind which the motion went on: its name, time in seconds, kind, and the energy that was lost in J.
 
-    `before` and `after` are the states on both sides of it, shape (width,).
+    `before` and `after` are the states on both sides of it, shape (width,). One that `ends_many` is the last that was
+    followed of events that pile up: how far away the last of all is, is not known.
     """
 
     name: str
@@ -47,6 +51,10 @@ class Transition:
     after: Floats
     loss: float = 0.0
     error: float | None = None
+    ends_many: bool = False
+
+
+ModeEvent: TypeAlias = tuple[ModeState, str, str]  # the state behind an event, what it happened to, and its kind
 
 
 class UnsettledError(Exception):
@@ -75,18 +83,18 @@ def begun(problem: Problem, modes: Modes) -> ModeState:
     n, state, empty = problem.degrees, problem.state, _empty(modes)
     own = with_signs(problem, modes)
     current = ModeState(own, modes, 0.0, state[:n].copy(), state[n : 2 * n].copy(), empty)
-    kinks = tuple(-1.0 if kink < 0.0 else 1.0 for kink in current.facts.kinks)
-    current = replace(current, mode=replace(empty, kinks=kinks))
+    kinks, pins = (tuple(-1.0 if s < 0.0 else 1.0 for s in each) for each in (current.facts.kinks, current.facts.pins))
+    current = replace(current, mode=replace(empty, kinks=kinks, slips=(*empty.slips[: modes.first_pin], *pins)))
     closed = current.touching
     return _resolved(_after_impacts(current, closed[0]) if closed else current, frozenset(closed), None)
 
 
-def passed(current: ModeState, watched: int) -> tuple[ModeState, str, str]:
+def passed(current: ModeState, watched: int) -> ModeEvent:
     """The state behind an event of a watched value that goes on, the name of what it happened to, and its kind."""
     modes, ending, mode = current.modes, len(current.modes.ending), current.mode
     place = watched - ending
     if place < len(modes.kinks):
-        contact = _contact_before(current, place)
+        contact = _contact_before(current, lambda facts: float(facts.kinks[place]), mode.kinks[place])
         if contact is not None and not mode.flags[modes.bounded + contact]:
             return _met(current, contact)
         kinks = tuple(-sign if k == place else sign for k, sign in enumerate(mode.kinks))
@@ -100,18 +108,42 @@ def passed(current: ModeState, watched: int) -> tuple[ModeState, str, str]:
     return _met(current, j)
 
 
-def _come_or_gone(current: ModeState, row: int) -> tuple[ModeState, str, str]:
+def _come_or_gone(current: ModeState, row: int) -> ModeEvent:
     """The state behind a friction or a switch that comes to zero, or is held there no longer."""
     modes = current.modes
     is_switch, name = row >= len(modes.frictions), modes.name_of(row)
     if current.mode.flags[row]:
         return _resolved(current, frozenset(), row), name, "leave" if is_switch else "slip"
+    if row >= modes.first_pin:
+        return _pinned(current, row, name)
     sign = current.mode.slips[row]
     stopped = _at_zero(current, sign * float(current.facts.w[row]), sign * rate_of(current, row), 0.0)
     found = _resolved(_without_rate(stopped, row), frozenset(), None, row)
     if found.mode.flags[row]:
         return found, name, "slide" if is_switch else "stick"
     return (found, "", "switch") if is_switch else (found, name, "turn")
+
+
+def _pinned(current: ModeState, row: int, name: str) -> ModeEvent:
+    """The state behind a kink of places at which a force jumps: at rest in it, or behind it."""
+    modes, sign = current.modes, current.mode.slips[row]
+    pin = row - modes.first_pin
+    contact = _contact_before(current, lambda facts: float(facts.pins[pin]), sign)
+    if contact is not None and not current.mode.flags[modes.bounded + contact]:
+        return _met(current, contact)
+    if _lies_in(current, row):
+        still = current.pushed(row, -float(current.facts.w[row]))
+        found = _resolved(still, frozenset(), None, row)
+        return (found, name, "slide") if found.mode.flags[row] else (found, "", "switch")
+    return _resolved(on_side(current, row, -sign), frozenset(), None), "", "switch"
+
+
+def _lies_in(current: ModeState, row: int) -> bool:
+    """Whether forces on both sides drive a motion back to a kink, and it goes off it by less than can be told."""
+    behind = on_side(current, row, -current.mode.slips[row])
+    rate, pull = float(current.facts.w[row]), -float(np.sign(current.facts.w[row])) * rate_of(behind, row)
+    slope = float(np.abs(current.facts.a[row]).max())
+    return bool(draws(current, row) and pull > 0.0 and rate**2 / (2.0 * pull) <= OFF_KINK * slope * size_of(current.q))
 
 
 def _without_rate(current: ModeState, row: int) -> ModeState:
@@ -123,7 +155,7 @@ def _without_rate(current: ModeState, row: int) -> ModeState:
     return pushed if np.abs(pushed.v - current.v).max() <= TINY * size_of(current.v) else current
 
 
-def _met(current: ModeState, contact: int) -> tuple[ModeState, str, str]:
+def _met(current: ModeState, contact: int) -> ModeEvent:
     """The state behind a contact that has closed, its name, and whether it rests."""
     closed = _closed(current, contact)
     found = _resolved(_after_impacts(closed, contact), frozenset({contact}), None)
@@ -135,17 +167,20 @@ def _name(modes: Modes, contact: int) -> str:
     return modes.scene.events[modes.contacts[contact]].name
 
 
-def _contact_before(current: ModeState, kink: int) -> int | None:
-    """The contact behind which the other side of a kink lies, where it touches: by rounding the kink is met first."""
+def _contact_before(current: ModeState, value: Callable[[Facts], float], sign: float) -> int | None:
+    """The contact behind which the other side of a kink lies, where it touches: by rounding the kink is met first.
+
+    `value` is that of the kink, `sign` the side that the motion is on.
+    """
     facts, step = current.facts, NUDGE * size_of(current.q)
     beside = [replace(current, q=current.q + step * each) for each in np.eye(len(current.q))]
-    slope = np.array([each.facts.kinks[kink] - facts.kinks[kink] for each in beside])
+    slope = np.array([value(each.facts) - value(facts) for each in beside])
     for j in current.touching:
         row = facts.a[current.modes.bounded + j]
         if row.any():
             share = float(slope @ row) / float(row @ row)
             left = float(np.linalg.norm(slope - share * row))
-            if share * current.mode.kinks[kink] > 0.0 and left <= NUDGE * float(np.linalg.norm(slope)):
+            if share * sign > 0.0 and left <= NUDGE * float(np.linalg.norm(slope)):
                 return j
     return None
 
@@ -218,8 +253,8 @@ def _resolved(current: ModeState, closed: frozenset[int], released: int | None, 
     held = _at_rest(current, closed, released, come)
     facts, size = current.facts, size_of(current.v)
     slips = [
-        s if at_zero or abs(w) <= HARDLY * size else float(np.sign(w))
-        for s, w, at_zero in zip(current.mode.slips, facts.w, held, strict=False)
+        s if held[row] or row >= modes.first_pin or abs(facts.w[row]) <= HARDLY * size else float(np.sign(facts.w[row]))
+        for row, s in enumerate(current.mode.slips)
     ]
     if released is not None and released < bounded:
         slips[released] = -float(np.sign(facts.reactions[released])) or 1.0
@@ -229,7 +264,7 @@ def _resolved(current: ModeState, closed: frozenset[int], released: int | None, 
             current = _without_rate(current, row)
     facts, sticking = current.facts, list(held[:bounded])
     for _ in range(2 * modes.rows + 2):
-        across = _held_by_contacts(facts, held, sticking)
+        across = _held_by_others(modes, facts, held, sticking)
         held[:bounded] = [sticks and not across[k] for k, sticks in enumerate(sticking)]
         slips = [across[k] or slip for k, slip in enumerate(slips)]
         flags = tuple(float(h) for h in held)
@@ -252,6 +287,9 @@ def _at_rest(current: ModeState, closed: frozenset[int], released: int | None, c
         abs(float(facts.w[row])) <= HARDLY * size or row == come or bool(current.mode.flags[row])
         for row in range(modes.bounded)
     ]
+    for row in range(modes.first_pin, modes.bounded):
+        slope = float(np.abs(facts.a[row]).max())
+        held[row] &= abs(float(facts.pins[row - modes.first_pin])) <= ROUNDING * slope * size_of(current.q)
     for j in range(len(modes.contacts)):
         row = modes.bounded + j
         touches = j in closed or current.mode.flags[row] or j in touching
@@ -268,22 +306,30 @@ def _left(current: ModeState, row: int, *, has_come: bool) -> float:
     return -float(np.sign(current.facts.reactions[row]))
 
 
-def _held_by_contacts(facts: Facts, held: list[bool], sticking: list[bool]) -> list[float]:
-    """Of each friction 0, or which way it slips as contacts open that hold all that it would hold.
+def _held_by_others(modes: Modes, facts: Facts, held: list[bool], sticking: list[bool]) -> list[float]:
+    """Of each friction or switch 0, or its side as what holds all that it would hold lets go.
 
     A slide at its stop is held by both, and what each takes is not determined. The contact takes it, with the friction
-    that an opening would meet: it holds up to where that does no longer.
+    that an opening would meet: it holds up to where that does no longer. So does a kink of places that it lies in.
     """
-    closed = [row for row in range(len(sticking), len(held)) if held[row]]
-    found = [0.0] * len(sticking)
-    for k, sticks in enumerate(sticking):
-        if sticks and closed:
-            rows = facts.a[closed].T
-            shares = np.linalg.lstsq(rows, facts.a[k], rcond=None)[0]
-            left = float(np.linalg.norm(facts.a[k] - rows @ shares))
-            if left <= ALONG * float(np.linalg.norm(facts.a[k])):
-                found[k] = 1.0 if shares.sum() >= 0.0 else -1.0
-    return found
+    contacts = [row for row in range(modes.bounded, modes.rows) if held[row]]
+    pins = [row for row in range(modes.first_pin, modes.bounded) if held[row]]
+    return [
+        _share(facts, k, contacts if k >= modes.first_pin else [*pins, *contacts]) if sticks else 0.0
+        for k, sticks in enumerate(sticking)
+    ]
+
+
+def _share(facts: Facts, row: int, others: list[int]) -> float:
+    """0 for a row that others do not hold as well, else which way it goes with them."""
+    if not others:
+        return 0.0
+    rows = facts.a[others].T
+    shares = np.linalg.lstsq(rows, facts.a[row], rcond=None)[0]
+    left = float(np.linalg.norm(facts.a[row] - rows @ shares))
+    if left > ALONG * float(np.linalg.norm(facts.a[row])):
+        return 0.0
+    return 1.0 if shares.sum() >= 0.0 else -1.0
 
 
 def _lost(current: ModeState, held: list[bool]) -> int | None:
@@ -304,10 +350,10 @@ def _offset(current: ModeState) -> ModeState:
     plain = replace(current, mode=replace(current.mode, offsets=(0.0,) * modes.watched))
     ending = len(modes.ending)
     first = ending + len(modes.kinks)
-    last = first + 2 * modes.bounded
+    pins, last = first + 2 * modes.first_pin, first + 2 * modes.bounded
     offsets = []
     for place, value in enumerate(plain.watched):
-        room = HARDLY * size_of(current.v) if first <= place < last else ROUNDING * size_of(current.q)
+        room = HARDLY * size_of(current.v) if first <= place < pins else ROUNDING * size_of(current.q)
         room *= current.scale(place - last) if place >= last else 1.0
         offsets.append(0.0 if place < ending or value > room else room - min(float(value), 0.0))
     return replace(current, mode=replace(current.mode, offsets=tuple(offsets)))
