@@ -2,15 +2,16 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from typing import Any
+from collections.abc import Collection, Sequence
+from dataclasses import dataclass, field
+from typing import Any, overload
 
 from ...model import recurrences as r
 from ...model.recurrences import Recurrences
-from .code import Code, MachineCode, compiled
+from .code import Code, MachineCode, compiled, used
 from .operations import COMPARISONS, Operands, first, kept, later
 from .shape import Shape
-from .sums import OfMotions, OfOperations, Sums, name_of, terms_of, width_of_sums
+from .sums import Blocks, OfMotions, OfOperations, Sums, name_of, terms_of, width_of_sums
 
 
 @dataclass(frozen=True)
@@ -55,6 +56,9 @@ def wanted(recurrences: Recurrences) -> set[int]:
     return found
 
 
+MANY = 48  # sums, from which on a function of its own finds an order
+
+
 @dataclass(frozen=True)
 class Jet:
     """Code that finds the Taylor coefficients of a motion: void jet(out, given, work, program).
@@ -70,9 +74,10 @@ class Jet:
 
 def jet_of(recurrences: Recurrences, lanes: int = 1) -> Jet:
     """The code of some recurrences, for one motion or for so many side by side."""
-    terms = terms_of(recurrences)
+    terms, shape = terms_of(recurrences), Shape.of(recurrences, lanes)
+    if lanes == 1 and len(terms) > MANY and not recurrences.conditions:
+        return _InParts(recurrences, shape, Blocks(terms, width_of_sums()), Code(1)).jet()
     sums: Sums = OfOperations(terms, width_of_sums()) if lanes == 1 else OfMotions(terms, lanes)
-    shape = Shape.of(recurrences, lanes)
     writer = _Writer(recurrences, shape, sums, Code(lanes))
     writer.write()
     return Jet(compiled({"jet": writer.code}), shape, sums.size)
@@ -90,18 +95,7 @@ class _Writer:
     def write(self) -> None:
         """The whole function."""
         r_, code, shape = self.recurrences, self.code, self.shape
-        code.label("entry")
-        code.do("%last = load i64, ptr %program")
-        unit, constants = code.load("%given", 0), self._constants()
-        state = [code.load("%given", 1 + d) for d in range(shape.width)]
-        time = code.load("%given", 1 + shape.width)
-        inputs = [*state[: 2 * r_.degrees], time]
-        begin, kept_, conditions = self._first(inputs, constants)
-        self._out("0", state, begin)
-        for number, place in enumerate(place for pair in r_.pivots for place in pair):
-            code.store(begin[place], "%out", shape.first_pivot + number)
-        following = self._integrated(state, begin, unit, code.number(1.0))
-        self._out_state("1", following)
+        unit, constants, begin, kept_, conditions, following = self._entry()
         code.do("br label %order")
         code.label("order")
         code.do("%k = phi i64 [ 1, %entry ], [ %kn, %chain ]")
@@ -113,6 +107,22 @@ class _Writer:
         for name in map(name_of, self.sums.before):
             code.do(f"%{name} = phi {code.kind} [ {code.number(0.0)}, %entry ], [ %{name}.n, %chain ]")
         self._order([*now[: 2 * r_.degrees], "%t"], now, begin, kept_, conditions, constants, unit)
+
+    def _entry(self) -> tuple[str, list[str], list[str], list[str], list[str], list[str]]:
+        """The first block: H, the constants, the first coefficients, what is kept, conditions, and the next state."""
+        r_, code, shape = self.recurrences, self.code, self.shape
+        code.label("entry")
+        code.do("%last = load i64, ptr %program")
+        unit, constants = code.load("%given", 0), self._constants()
+        state = [code.load("%given", 1 + d) for d in range(shape.width)]
+        time = code.load("%given", 1 + shape.width)
+        begin, kept_, conditions = self._first([*state[: 2 * r_.degrees], time], constants)
+        self._out("0", state, begin)
+        for number, place in enumerate(place for pair in r_.pivots for place in pair):
+            code.store(begin[place], "%out", shape.first_pivot + number)
+        following = self._integrated(state, begin, unit, code.number(1.0))
+        self._out_state("1", following)
+        return unit, constants, begin, kept_, conditions, following
 
     def _constants(self) -> list[str]:
         return [self.code.load("%given", self.shape.first_constant + i) for i in range(self.shape.constants)]
@@ -138,23 +148,30 @@ class _Writer:
         return values, extras, [truths.get(i, "") for i in range(len(r_.conditions))]
 
     @staticmethod
-    def _operands(operation: r.Operation, values: list[str], **more: Any) -> Operands:
+    def _operands(operation: r.Operation, values: Sequence[str], **more: Any) -> Operands:
         """What is known of an operation: the first coefficients of its operands, if there are such, and more."""
         a0, b0, c0 = (values[p] if p < len(values) else "" for p in (operation.a, operation.b, operation.c))
         return Operands(a0=a0, b0=b0, c0=c0, **more)
 
     @staticmethod
-    def _constant(operation: r.Operation, constants: list[str]) -> str:
+    def _now(operation: r.Operation, values: list[str], conditions: list[str]) -> dict[str, str]:
+        """The coefficients of order k of an operation's operands; of a choice whether its condition holds, as `a`."""
+        places = {"a": operation.a, "b": operation.b, "c": operation.c}
+        found = {name: values[place] if place < len(values) else "" for name, place in places.items()}
+        return found | {"a": conditions[operation.a]} if operation.code == r.CHOICE else found
+
+    @staticmethod
+    def _constant(operation: r.Operation, constants: Sequence[str]) -> str:
         return constants[operation.constant] if operation.code in r.WITH_CONSTANT else ""
 
     def _order(
         self,
         inputs: list[str],
         state: list[str],
-        begin: list[str],
-        extras: list[str],
+        begin: Sequence[str],
+        extras: Sequence[str],
         conditions: list[str],
-        constants: list[str],
+        constants: Sequence[str],
         unit: str,
     ) -> None:
         """The block of order k: sums, operations, and the next coefficients of the state."""
@@ -170,26 +187,26 @@ class _Writer:
             if place not in asked:
                 values.append("")
                 continue
-            a, b, c = (values[p] if p < len(values) else "" for p in (operation.a, operation.b, operation.c))
-            x = self._operands(
-                operation,
-                begin,
-                a=conditions[operation.a] if operation.code == r.CHOICE else a,
-                b=b,
-                c=c,
-                y0=begin[place],
-                extra=extras[place - len(inputs)],
-                constant=self._constant(operation, constants),
-                sums=tuple(sums[t] for t in operation.sums(place)),
-                order=order,
-                inverse=inverse,
-            )
-            joined = self._joined(operation, values, constants)
-            values.append(joined or later(code, operation.code, x))
-            self._keep(place, values[-1], order, row)
+            value = self._joined(operation, values, constants)
+            if not value:
+                terms = operation.sums(place)  # without any, first coefficients are not asked for
+                x = self._operands(
+                    operation,
+                    begin if terms else (),
+                    **self._now(operation, values, conditions),
+                    y0=begin[place] if terms else "",
+                    extra=extras[place - len(inputs)] if terms else "",
+                    constant=self._constant(operation, constants),
+                    sums=tuple(sums[t] for t in terms),
+                    order=order,
+                    inverse=inverse,
+                )
+                value = later(code, operation.code, x)
+            values.append(value)
+            self._keep(place, value, order, row)
         self._end(state, values, unit)
 
-    def _joined(self, operation: r.Operation, values: list[str], constants: list[str]) -> str:
+    def _joined(self, operation: r.Operation, values: list[str], constants: Sequence[str]) -> str:
         """A sum or difference in which the later operand is a series times a constant, rounded once; else nothing."""
         code, one = self.code, joined(self.recurrences, operation)
         if one is None:
@@ -206,11 +223,20 @@ class _Writer:
         code = self.code
         code.do("%kn = add i64 %k, 1")
         code.do(f"%inverse.n = fdiv double 1.0, {code.new('sitofp i64 %kn to double')}")
-        following = self._integrated(state, values, unit, code.spread("%inverse.n"))
+        for d, value in enumerate(self._next(state, values, unit)):
+            code.do(f"%xn{d} = bitcast {code.kind} {value} to {code.kind}")
+        self._repeat()
+
+    def _next(self, state: list[str], values: list[str], unit: str) -> list[str]:
+        """The next coefficients of the state, written down with those of conditions' arguments."""
+        following = self._integrated(state, values, unit, self.code.spread("%inverse.n"))
         self._out_conditions("%k", values)
         self._out_state("%kn", following)
-        for d, value in enumerate(following):
-            code.do(f"%xn{d} = bitcast {code.kind} {value} to {code.kind}")
+        return following
+
+    def _repeat(self) -> None:
+        """The next order, if any, or the end."""
+        code = self.code
         code.do(f"br i1 {code.new('icmp slt i64 %kn, %last')}, label %order, label %end")
         code.label("end")
         code.do("ret void")
@@ -251,3 +277,98 @@ class _Writer:
         base = self.code.at("%out", self.code.new(f"mul i64 {order}, {self.shape.components}"))
         for number, condition in enumerate(r_.conditions):
             self.code.store(values[condition.argument], base, self.shape.width + number)
+
+
+NUMBERS = "i64 %k, double %t, double %inverse, double %inverse.n"  # the order, the coefficient of t, 1/k, 1/(k + 1)
+
+
+@dataclass(frozen=True)
+class _InParts(_Writer):
+    """Writes the function of the first coefficients, which calls another one for each order (`_OneOrder`).
+
+    Without a loop around so many operations LLVM takes two thirds of the time. What an order needs of the first
+    coefficients stands in memory behind the sums: these by places, and then what the operations keep.
+    """
+
+    def jet(self) -> Jet:
+        """The jet of both."""
+        one = _OneOrder(self.recurrences, self.shape, self.sums, Code(1))
+        one.write()
+        self._write(one.asked)
+        self.code.declared.update(one.code.declared)
+        later = f"define internal void @later(ptr noalias %out, ptr noalias %given, ptr noalias %work, {NUMBERS})"
+        text = "\n".join([f"{later} noinline #0 {{", *one.code.lines, "}"])
+        size = self.sums.size + len(_behind(self.recurrences))
+        return Jet(compiled({"jet": self.code}, inner=[text]), self.shape, size)
+
+    def _write(self, asked: Collection[int]) -> None:
+        code = self.code
+        unit, _, begin, kept_, _, _ = self._entry()
+        for number, value in enumerate((*begin, *kept_)):
+            if number in asked:
+                code.store(value, "%work", self.sums.size + number)
+        code.do("br label %order")
+        code.label("order")
+        code.do("%k = phi i64 [ 1, %entry ], [ %kn, %order ]")
+        code.do(f"%t = phi double [ {unit}, %entry ], [ {code.number(0.0)}, %order ]")
+        code.do("%inverse = phi double [ 1.0, %entry ], [ %inverse.n, %order ]")
+        code.do("%kn = add i64 %k, 1")
+        code.do(f"%inverse.n = fdiv double 1.0, {code.new('sitofp i64 %kn to double')}")
+        code.do(f"call void @later(ptr %out, ptr %given, ptr %work, {NUMBERS})")
+        self._repeat()
+
+
+@dataclass(frozen=True)
+class _OneOrder(_Writer):
+    """Writes the function of the coefficients of one order."""
+
+    asked: set[int] = field(default_factory=set)  # what is read of the numbers behind the sums
+
+    def write(self) -> None:
+        """The whole function."""
+        r_, code, shape = self.recurrences, self.code, self.shape
+        code.label("entry")
+        row = code.at("%out", code.new(f"mul i64 %k, {shape.components}"))
+        state = [code.load(row, d) for d in range(shape.width)]
+        behind = _Read(code, code.at("%work", self.sums.size), _behind(r_))
+        inputs = [*state[: 2 * r_.degrees], "%t"]
+        begin, kept_ = behind[: r_.inputs + len(r_.operations)], behind[r_.inputs + len(r_.operations) :]
+        constants = _Read(code, code.at("%given", shape.first_constant), range(shape.constants))
+        self._order(inputs, state, begin, kept_, [], constants, code.load("%given", 0))
+        code.lines[:] = used(code.lines, [])
+        left = {line.partition(" = ")[0].strip() for line in code.lines}
+        self.asked.update(number for name, number in behind.names.items() if name in left)
+
+    def _end(self, state: list[str], values: list[str], unit: str) -> None:
+        self.code.do("%kn = add i64 %k, 1")
+        self._next(state, values, unit)
+        self.code.do("ret void")
+
+
+def _behind(recurrences: Recurrences) -> range:
+    """The numbers behind the sums."""
+    return range(recurrences.inputs + 2 * len(recurrences.operations))
+
+
+@dataclass(frozen=True)
+class _Read(Sequence[str]):
+    """Numbers in memory, each read where it is asked for; `names` are those of what was read."""
+
+    code: Code
+    base: str
+    places: range
+    names: dict[str, int] = field(default_factory=dict)
+
+    def __len__(self) -> int:
+        return len(self.places)
+
+    @overload
+    def __getitem__(self, number: int) -> str: ...
+    @overload
+    def __getitem__(self, number: slice) -> Sequence[str]: ...
+    def __getitem__(self, number: int | slice) -> str | Sequence[str]:
+        if isinstance(number, slice):
+            return _Read(self.code, self.base, self.places[number], self.names)
+        name = self.code.load(self.base, self.places[number])
+        self.names[name] = self.places[number]
+        return name

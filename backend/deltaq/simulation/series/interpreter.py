@@ -6,20 +6,17 @@ long. It does what `generated` writes, operation by operation, so that both give
 
 from __future__ import annotations
 
-import re
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from functools import partial
 
 from ...model import recurrences as r
 from ...model.recurrences import Recurrences
 from . import program as p
-from .code import Code, MachineCode, compiled, shared
+from .code import Code, MachineCode, compiled, shared, used
 from .generated import Jet
 from .operations import COMPARISONS, Operands, first, kept, later
 from .shape import Shape
-
-READ, NAME = re.compile(r" *(%\w+) = (?:load|getelementptr|add|fcmp) "), re.compile(r"%[\w.]+")
 
 
 def interpreted(recurrences: Recurrences) -> Jet:
@@ -133,7 +130,7 @@ class _Writer:
             code.circular.clear()  # no case has what another finds
             begin = len(code.lines)
             found[each] = case()
-            code.lines[begin:] = _used(code.lines[begin:], found[each])
+            code.lines[begin:] = used(code.lines[begin:], found[each])
             code.do(f"br label %{name}.found")
         code.label(f"{name}.none")
         code.do("unreachable")
@@ -189,17 +186,6 @@ class _Writer:
 
         self.times(f"rate.{name}", head[p.RATES + 1], integrate)
         self.times(f"state.{name}", code.new(f"sub i64 {head[p.INPUTS]}, 1"), keep)
-
-
-def _used(lines: Sequence[str], results: Sequence[str]) -> list[str]:
-    """The lines of a case without what is read in vain."""
-    used, found = set(results), list[str]()
-    for line in reversed(lines):
-        read = READ.match(line)
-        if read is None or read[1] in used:
-            used.update(NAME.findall(line))
-            found.append(line)
-    return found[::-1]
 
 
 @dataclass(frozen=True)

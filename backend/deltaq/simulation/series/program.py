@@ -12,11 +12,10 @@ from functools import cached_property
 
 from ...model import recurrences as r
 from ...model.recurrences import Operation, Recurrences, Term
-from ..kernels.taylor import MOST_ORDERS
 from .code import address_of
 from .generated import joined, wanted
 from .shape import Shape
-from .sums import MOST_GROUPS, loops, terms_of, width_of_sums
+from .sums import Blocks, terms_of, width_of_sums
 
 # Places in the program, which begins with the order: addresses of code and of numbers in the work space, sizes, and
 # lists, of which each has its place and its length.
@@ -53,44 +52,14 @@ class Layout:
         return wanted(self.recurrences)
 
     @cached_property
-    def width(self) -> int:
-        """Sums side by side in a vector."""
-        return width_of_sums()
-
-    @property
-    def groups(self) -> int:
-        """Of sums, in a block."""
-        return max(1, min(MOST_GROUPS, -(-len(self.terms) // self.width)))
-
-    @property
-    def together(self) -> int:
-        """Sums in a block."""
-        return self.groups * self.width
-
-    @property
-    def blocks(self) -> int:
-        """How many blocks of sums there are; one call of a loop finds the sums of one."""
-        return -(-len(self.terms) // self.together)
-
-    @property
-    def row(self) -> int:
-        """Doubles of an order in a block: of each group u and v."""
-        return 2 * self.together
-
-    @property
-    def block(self) -> int:
-        """Doubles of a block."""
-        return self.row * MOST_ORDERS
-
-    @property
-    def first_sum(self) -> int:
-        """Where the sums begin."""
-        return self.blocks * self.block
+    def sums(self) -> Blocks:
+        """Where the sums stand, and what they are made of."""
+        return Blocks(self.terms, width_of_sums())
 
     @property
     def first_place(self) -> int:
         """Where the coefficients by places begin."""
-        return self.first_sum + self.blocks * self.together
+        return self.sums.size
 
     @property
     def places(self) -> int:
@@ -117,12 +86,11 @@ class Layout:
             MULTIPLE: self._stored(is_multiple=True),
         }
         head = [0] * HEAD
-        head[LOOP] = loops(self.width).addresses[f"sums{self.groups}"]
-        head[ROW], head[SUMS] = self.row, self.first_sum
+        head[LOOP], head[ROW], head[SUMS] = self.sums.loop, self.sums.stride, self.sums.first_sum
         head[NOW], head[BEGIN], head[KEPT] = (self.first_place + number * self.places for number in range(3))
         head[INPUTS], head[WIDTH], head[COMPONENTS] = r_.inputs, shape.width, shape.components
         head[FIRST_PIVOT], head[FIRST_CONSTANT] = shape.first_pivot, shape.first_constant
-        head[BLOCKS], head[BLOCK], head[TOGETHER] = self.blocks, self.block, self.together
+        head[BLOCKS], head[BLOCK], head[TOGETHER] = self.sums.blocks, self.sums.block, self.sums.together
         body: list[int] = []
         for at, records in lists.items():
             head[at : at + 2] = HEAD + len(body), len(records)
@@ -131,14 +99,8 @@ class Layout:
 
     def _stored(self, *, is_multiple: bool) -> list[list[int]]:
         """The places whose coefficients, or k times these, sums need, each with where in an order it belongs."""
-        found = []
-        for number, term in enumerate(self.terms):
-            block, rest = divmod(number, self.together)
-            group, lane = divmod(rest, self.width)
-            for side, (place, multiple) in enumerate(term):
-                if multiple is is_multiple:
-                    found.append([place, block * self.block + (2 * group + side) * self.width + lane])
-        return found
+        places = self.sums.places
+        return [[place, at] for (place, kind), every in places.items() if kind is is_multiple for at in every]
 
     def _beginnings(self) -> Iterable[list[int]]:
         """What tells the first coefficients: the operations, and before the first that needs it each condition."""

@@ -11,7 +11,7 @@ All coefficients of an order stand together in memory, so that each pass of that
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Protocol
@@ -22,7 +22,7 @@ from .code import Code, MachineCode, compiled, host, shared
 
 TOGETHER = 5  # sums in one loop, whose parts have to stay in registers
 FEW = 12  # sums of one motion whose ends are found one by one
-MOST_GROUPS = 4  # of sums of one motion in a loop that is no part of a model's code
+MOST_GROUPS = 5  # of sums of one motion in a loop that is no part of a model's code
 
 Factors = tuple[str, str]
 End = Callable[[Code, int], Factors]  # what is multiplied at an end of the sum with this number
@@ -46,8 +46,8 @@ class Sums(Protocol):
     def before(self) -> Sequence[Series]:
         """Series whose coefficients of the order before are asked for, by `name_of`."""
 
-    def write(self, code: Code, order: str) -> dict[Term, str]:
-        """The sums of an order, from the block `order` to the beginning of the block `chain`."""
+    def write(self, code: Code, order: str) -> Mapping[Term, str]:
+        """The sums of an order; with loops, from the block `order` to the beginning of the block `chain`."""
 
 
 @dataclass(frozen=True)
@@ -124,6 +124,102 @@ class OfOperations:
             code.new(f"extractelement {kind} {found[number // self.width]}, i32 {number % self.width}")
             for number in range(len(self.terms))
         ]
+
+
+@dataclass(frozen=True)
+class Blocks:
+    """Sums of one motion, block by block: functions that all models share find those of one (`loops`).
+
+    A block has all its orders, of each the vectors of u and v group by group. Behind the blocks stand the sums.
+    """
+
+    terms: tuple[Term, ...]
+    width: int
+
+    @property
+    def blocks(self) -> int:
+        """How many there are."""
+        return -(-self._groups // MOST_GROUPS)
+
+    @property
+    def groups(self) -> int:
+        """Of sums, in a block."""
+        return -(-self._groups // max(1, self.blocks))
+
+    @property
+    def _groups(self) -> int:
+        return -(-len(self.terms) // self.width)
+
+    @property
+    def together(self) -> int:
+        """Sums in a block."""
+        return self.groups * self.width
+
+    @property
+    def stride(self) -> int:
+        """Doubles of an order in a block: of each group u and v."""
+        return 2 * self.together
+
+    @property
+    def block(self) -> int:
+        """Doubles of a block."""
+        return self.stride * MOST_ORDERS
+
+    @property
+    def first_sum(self) -> int:
+        """Where the sums begin."""
+        return self.blocks * self.block
+
+    @property
+    def size(self) -> int:
+        return self.first_sum + self.blocks * self.together
+
+    @property
+    def loop(self) -> int:
+        """The address of the function that finds the sums of a block."""
+        return loops(self.width).addresses[f"sums{max(1, self.groups)}"]
+
+    @cached_property
+    def places(self) -> Mapping[Series, Sequence[int]]:
+        found: dict[Series, list[int]] = {}
+        for number, term in enumerate(self.terms):
+            block, rest = divmod(number, self.together)
+            group, lane = divmod(rest, self.width)
+            for side, series in enumerate(term):
+                found.setdefault(series, []).append(block * self.block + (2 * group + side) * self.width + lane)
+        return found
+
+    def row(self, code: Code, order: str) -> str:
+        return _row(code, order, self.stride)
+
+    @property
+    def before(self) -> Sequence[Series]:
+        return []
+
+    def write(self, code: Code, order: str) -> Mapping[Term, str]:
+        sums = code.at("%work", self.first_sum)
+        for number in range(self.blocks):
+            block, out = code.at("%work", number * self.block), code.at(sums, number * self.together)
+            code.do(f"call void inttoptr (i64 {self.loop} to ptr)(ptr {block}, i64 {order}, ptr {out})")
+        return _Found(code, sums, {term: number for number, term in enumerate(self.terms)})
+
+
+@dataclass(frozen=True)
+class _Found(Mapping[Term, str]):
+    """Sums in memory, each read where it is asked for: an operation of the processor may do that besides."""
+
+    code: Code
+    base: str
+    places: Mapping[Term, int]
+
+    def __getitem__(self, term: Term) -> str:
+        return self.code.load(self.base, self.places[term])
+
+    def __iter__(self) -> Iterator[Term]:
+        return iter(self.places)
+
+    def __len__(self) -> int:
+        return len(self.places)
 
 
 @dataclass(frozen=True)
