@@ -293,7 +293,7 @@ def test_step_limit() -> None:
     problem = replace(problem_of(load_scene("pendulum"), 10.0), step_limit=100)
     found = simulate(problem, get_method("rk4"), step=0.01)
     assert found.outcome.status == "step_limit"
-    assert dict(found.outcome.parameters) == {"method": "rk4", "t": 0.481, "t_end": 10.0, "steps": 100}
+    assert dict(found.outcome.parameters) == {"method": "rk4", "t": 0.481, "t_end": 10.0, "steps": 100, "step": 0.01}
     assert found.reached == pytest.approx(0.4814, abs=1e-4)
     assert found.times[-1] == pytest.approx(0.48)
 
