@@ -86,6 +86,22 @@ def test_forces_may_jump_at_known_times(method: str) -> None:
     assert found.values[-1, 0] == pytest.approx(length * (10.0 - t1) - length**2 / 2.0, abs=1e-6)
 
 
+@pytest.mark.parametrize("method", method_ids())
+def test_forces_may_jump_at_the_end_and_shortly_before(method: str) -> None:
+    """At rest up to the jump, and hardly moved behind it; the last step is as short as rounding of its time."""
+    source = Random(method)
+    for exponent in (-17, -16, -15, -14, -12, -10, -8, -7, -7, -7, -6, -5, -3):
+        end = source.choice((1.0, 10.0, math.pi, source.uniform(0.1, 30.0)))
+        begin = end * (1.0 - source.uniform(1.0, 9.0) * 10.0**exponent)
+        problem = problem_of(driven("F*(1 + sign(t - t1))/2", -3.0, F=2.0, t1=begin), end)
+        found = simulate(problem, get_method(method), tolerance=1e-6)
+        told = (method, exponent, end, begin)
+        assert (found.outcome.status, found.times[-1]) == ("ok", end), told
+        assert found.reached == pytest.approx(end, rel=1e-14), told
+        assert found.values[-1, 0] == pytest.approx(-3.0 + (end - begin) ** 2, abs=2e-6), told
+        assert np.ptp(found.values[: -max(3, len(found.times) // 50), 0]) == 0.0, told
+
+
 def test_a_switch_costs_no_order() -> None:
     """Steps end before a jump and begin behind it, so that the error still falls with h⁴."""
     problem = problem_of(driven("F*(1 + sign(cos(w*t) - c))/2 - x", 1.0, F=1.0, w=3.1, c=0.3), 30.0)

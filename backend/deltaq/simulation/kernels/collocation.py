@@ -6,6 +6,7 @@ from .compiler import inline
 from .implicit_workspace import ImplicitWorkspace
 from .motion import Floats
 from .phase import Phase, velocity
+from .plan import comes_to
 from .stages import ImplicitWeights
 
 NODES = (-0.7745966692414834, 0.0, 0.7745966692414834)  # ±√(3/5)
@@ -54,7 +55,7 @@ def sample_stages(
     t, h = now
     times, out = samples
     n, count, reached = p.size, times.size, t + h
-    is_last = reached >= times[count - 1] - 1e-9 * h
+    is_last = comes_to(times[count - 1], reached)
     while first < count and (is_last or times[first] <= reached):
         x = min((times[first] - t) / h, 1.0)
         for d in range(n):

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from .compiler import inline, runtime_int
 from .motion import FINE, Floats, Motion
+from .plan import comes_to
 from .step import Weights, Workspace, stages
 from .watch import Watch, check_events, set_sample_times
 
@@ -49,7 +50,7 @@ def sample(
     """
     end, count = weights.b.size, times.size
     reached = t + h
-    is_last = reached >= times[count - 1] - 1e-9 * h
+    is_last = comes_to(times[count - 1], reached)
     if not is_last and times[first] > reached:
         return first, 0
     extra = weights.extra_c.size

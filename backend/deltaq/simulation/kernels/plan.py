@@ -16,6 +16,7 @@ from .motion import Floats
 
 CAPACITY = 1 << 15  # recorded steps, an even number; a longer run keeps every second, every fourth … of its steps
 COUNT, STRIDE, SKIPPED = 0, 1, 2
+ROUNDED = 4e-15  # of a time, as sums of steps and the room before a jump are; so close before the end is at the end
 
 
 class Plan(NamedTuple):
@@ -51,6 +52,12 @@ def enter_piece(plan: Plan, piece: int, t: float) -> tuple[int, float, bool]:
     if plan.sizes[piece + 1] == 0.0:
         return piece + 2, plan.ends[piece + 1], True
     return piece + 1, t, False
+
+
+@inline
+def comes_to(end: float, reached: float) -> bool:
+    """Whether a step that ends at `reached` has come to the end of the samples, but for rounding."""
+    return reached >= end * (1.0 - ROUNDED)
 
 
 @inline

@@ -28,7 +28,7 @@ from .motion import (
     Floats,
     Motion,
 )
-from .plan import enter_piece, fit_step, record
+from .plan import comes_to, enter_piece, fit_step, record
 from .pointer import call_jet
 from .step_control import Control, is_resolvable
 from .switch import AHEAD, detect_hold, held_or_failed, is_held_before
@@ -241,7 +241,7 @@ def sample_series(series: Series, row: int, t: float, h: float, times: Floats, o
     """
     count = times.size
     reached = t + h
-    is_last = reached >= times[count - 1] - 1e-9 * h
+    is_last = comes_to(times[count - 1], reached)
     while first < count and (is_last or times[first] <= reached):
         theta = min(times[first] - t, h) / series.told[UNITS + row]
         for d in range(series.width):
