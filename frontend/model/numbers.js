@@ -75,13 +75,17 @@ export function niceFloor(x) {
   return (lead >= 5 ? 5 : lead >= 2 ? 2 : 1) * power;
 }
 
+/** What a field is called, with its unit if it has one. @param {string} label @param {string} unit */
+export const withUnit = (label, unit) => (unitText(unit) ? `${label} (${unitText(unit)})` : label);
+
 /** The unit of a rate. @param {string} unit of what changes */
 export const perSecond = (unit) => `${unit || "1"}/s`;
 
 /**
- * A unit as it is printed: "m/s^2" becomes "m/s²".
+ * A unit as it is printed: "m/s^2" becomes "m/s²", and a number without a unit, whose unit is "1", has none.
  * @param {string} unit
  */
 export function unitText(unit) {
+  if (unit === "1") return "";
   return unit.replace(/\^(-?\d+)/g, (_, n) => raised(n)).replace(/\*/g, "·");
 }

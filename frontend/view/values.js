@@ -5,7 +5,7 @@ import { live } from "lit-html/directives/live.js";
 import { inline } from "./formula.js";
 import { settled } from "./settled.js";
 import { heldAt, isChanged, rangeText, slidersOf } from "../model/values.js";
-import { unitText } from "../model/numbers.js";
+import { unitText, withUnit } from "../model/numbers.js";
 
 /** @typedef {import("./page.js").View} View */
 /** @typedef {import("../model/values.js").Slider} Slider */
@@ -66,7 +66,7 @@ function row(slider, { state, session, t }) {
       <span class="symbol" title=${label}>${inline(slider.latex)}</span>
       <input type="range" aria-label=${label} min=${slider.min} max=${slider.max} step=${slider.step}
         style="--filled:${filled}" .value=${live(String(slider.value))} @input=${moved}>
-      <input type="number" aria-label=${`${label} (${unitText(slider.unit)})`} min=${bound(slider.least)} max=${bound(slider.most)} step="any"
+      <input type="number" aria-label=${withUnit(label, slider.unit)} min=${bound(slider.least)} max=${bound(slider.most)} step="any"
         style="--digits:${textOf(slider, slider.value).length}"
         aria-describedby=${hint ? `hint-${slider.key}` : nothing} .value=${settled(textOf(slider, slider.value))} @change=${typed}>
       <span class="unit">${unitText(slider.unit)}</span>

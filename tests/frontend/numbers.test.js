@@ -9,6 +9,7 @@ import {
   significant,
   unitText,
   withDecimalMark,
+  withUnit,
 } from "../../frontend/model/numbers.js";
 
 const CASES = [
@@ -35,6 +36,10 @@ const CASES = [
   ["a length of LaTeX stays", withDecimalMark("0.5 \\\\[0.3em] 1.5", "de"), "0{,}5 \\\\[0.3em] 1{,}5"],
   ["a letter behind a number is no length", withDecimalMark("0.5e_x + 1.25m", "de"), "0{,}5e_x + 1{,}25m"],
   ["raised exponents in units", unitText("m/s^2"), "m/s²"],
+  ["a number without a unit has none", unitText("1"), ""],
+  ["a field without a unit is called by its label", withUnit("μ", "1"), "μ"],
+  ["one with a unit by both", withUnit("g", "m/s^2"), "g (m/s²)"],
+  ["a rate of one has one", unitText("1/s"), "1/s"],
   ["negative exponents in units", unitText("kg*s^-1"), "kg·s⁻¹"],
   ["decimals of a step", decimalsOf(0.05), 2],
   ["decimals of a whole step", decimalsOf(1), 0],

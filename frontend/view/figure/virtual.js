@@ -6,7 +6,7 @@ import { inline } from "../formula.js";
 import { layerIn } from "./layer.js";
 import { called } from "../../model/catalog.js";
 import { placed } from "../../model/drawing/placing.js";
-import { decimalsOf, fixed, unitText } from "../../model/numbers.js";
+import { decimalsOf, fixed, unitText, withUnit } from "../../model/numbers.js";
 import { differences, LONGEST, reachOf, readChoice, writeChoice } from "../../model/virtual/choice.js";
 import { virtualFigure } from "../../model/virtual/figure.js";
 import { scaled, virtualOf } from "../../model/virtual/virtual.js";
@@ -162,7 +162,7 @@ function row({ className, key, latex, unit, label, value, reach, least, set }) {
       <span class="symbol" title=${label}>${inline(latex)}</span>
       <input type="range" aria-label=${label} min=${least} max=${reach} step=${step} style="--filled:${(value - least) / (reach - least)}"
         .value=${live(String(value))} @input=${changed}>
-      <input type="number" aria-label=${`${label} (${unitText(unit)})`} step="any" .value=${live(String(Number(value.toFixed(Math.max(2, decimalsOf(step))))))} @change=${changed}>
+      <input type="number" aria-label=${withUnit(label, unit)} step="any" .value=${live(String(Number(value.toFixed(Math.max(2, decimalsOf(step))))))} @change=${changed}>
       <span class="unit">${unitText(unit)}</span>
     </div>`;
 }
