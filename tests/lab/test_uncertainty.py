@@ -242,6 +242,20 @@ def test_runs_that_end_early_count_as_far_as_they_came() -> None:
     np.testing.assert_allclose(deviation[whole], np.std(runs, axis=0, ddof=1), rtol=1e-4)
 
 
+@pytest.mark.parametrize("t_end", [8.0, 20.0, 60.0, 150.0])
+def test_a_pole_after_a_few_samples_leaves_what_is_before_it(t_end: float) -> None:
+    """x = 1/(1 − t)², of which a span that goes far beyond t = 1 sees a few samples only; a small cloud stays linear."""
+    found = ask(scene=line("-2*m*x^3", v=2.0), tolerances={"x": 1e-6}, t_end=t_end, runs=40)
+    t = np.array(found["t"])
+    assert 2 <= len(t) <= 30
+    (coordinate,) = found["coordinates"]
+    np.testing.assert_allclose(coordinate["reference"], (1.0 - t) ** -2.0, rtol=1e-5)
+    linear, deviation, unlike = columns(found, "linear", "deviation", "nonlinearity")
+    assert len(linear) == len(deviation) == len(unlike) == len(t)
+    np.testing.assert_allclose(deviation, linear, rtol=0.5)
+    assert unlike.max() < 0.01
+
+
 def test_forces_with_kinks_are_run_one_by_one() -> None:
     """In the well k |x| a mass falls by k t²/2 as far as it has come, and passes 0 at τ = √(2 x₀/k) with v = −k τ.
 

@@ -117,8 +117,9 @@ def spread(cloud: Cloud, flow: Propagation, places: Integers, sigmas: Floats, co
 
 def _nearby(sizes: Floats) -> Floats:
     """Root mean square over the samples beside each: where the motions meet for a moment, little is spread at all."""
-    beside = np.ones(2 * BESIDE + 1)
-    total, count = (np.convolve(one, beside, mode="same") for one in (sizes**2, np.ones_like(sizes)))
+    beside, own = np.ones(2 * BESIDE + 1), slice(BESIDE, BESIDE + len(sizes))
+    # Not `mode="same"`, which gives as many as the longer of both has.
+    total, count = (np.convolve(one, beside)[own] for one in (sizes**2, np.ones_like(sizes)))
     return np.asarray(np.sqrt(total / count))
 
 
