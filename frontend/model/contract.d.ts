@@ -2459,6 +2459,11 @@ export interface components {
             taken?: components["schemas"]["Measured"] | null;
             reference: components["schemas"]["ReferenceMotion"];
             /**
+             * Events
+             * @description whether motions go on behind events: impacts, kinks, sticking and slipping
+             */
+            events: boolean;
+            /**
              * Points
              * @description every run, also one that failed
              */
@@ -9765,6 +9770,11 @@ export interface components {
             /** @description where the answer has times */
             taken?: components["schemas"]["Measured"] | null;
             reference: components["schemas"]["ReferenceMotion"];
+            /**
+             * Events
+             * @description whether motions go on behind events: impacts, kinks, sticking and slipping
+             */
+            events: boolean;
             machine: components["schemas"]["Machine"];
             /**
              * Repeats

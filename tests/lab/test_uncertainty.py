@@ -244,7 +244,7 @@ def test_runs_that_end_early_count_as_far_as_they_came() -> None:
 
 @pytest.mark.parametrize("t_end", [8.0, 20.0, 60.0, 150.0])
 def test_a_pole_after_a_few_samples_leaves_what_is_before_it(t_end: float) -> None:
-    """x = 1/(1 − t)², of which a span that goes far beyond t = 1 sees a few samples only; a small cloud stays linear."""
+    """x = 1/(1 − t)², of which a span far beyond t = 1 sees a few samples only; a small cloud stays linear."""
     found = ask(scene=line("-2*m*x^3", v=2.0), tolerances={"x": 1e-6}, t_end=t_end, runs=40)
     t = np.array(found["t"])
     assert 2 <= len(t) <= 30

@@ -1,7 +1,8 @@
 """One run of one method, measured: its error against a reference, its right-hand sides, its seconds.
 
 Errors are in the measure of a tolerance: the largest of any coordinate at any sample, absolute below 1 and relative
-above. Times are medians of repeated runs of the stepping loop alone; compiling and reading results do not count.
+above. Times are medians of repeated runs of the stepping loop alone; compiling and reading results do not count. Where
+a motion goes on behind events (impacts, sticking and slipping, kinks), what it takes to find and pass them does.
 """
 
 from __future__ import annotations
@@ -9,15 +10,20 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from statistics import median
+from time import perf_counter
 
 import numpy as np
 
+from ..model.modes import Modes, modes_of
+from ..simulation.hybrid import run_on
+from ..simulation.integration import Flag
 from ..simulation.kernels.motion import FINE
 from ..simulation.method import Method
 from ..simulation.outcome import outcome_of
 from ..simulation.problem import Floats, Problem
 from ..simulation.reference import Reference
 from ..simulation.run import Run, Steps, run
+from ..simulation.transitions import with_signs
 from .report import Document, rounded, significant
 
 SLOW = 0.3  # seconds of the fastest run, beyond which a finer one is not tried
@@ -79,25 +85,64 @@ def too_slow(method: str, setting: Setting) -> Point:
     return Point(method, setting, "too_slow", None)
 
 
-def warm(problem: Problem, *methods: Method) -> None:
+@dataclass(frozen=True)
+class Runs:
+    """What is run: a problem, and its modes where its motions go on behind events."""
+
+    problem: Problem
+    modes: Modes | None
+    cancelled: Flag
+
+    @classmethod
+    def of(cls, problem: Problem) -> Runs:
+        """The runs of a problem, as a simulation has them."""
+        modes = modes_of(problem.model.scene)
+        own = problem if modes is None else replace(problem, model=modes.model)
+        return cls(own, modes, np.zeros(1, dtype=np.int64))
+
+    @classmethod
+    def over_kinks(cls, problem: Problem) -> Runs:
+        """The runs of one set of equations, whose steps go over kinks."""
+        return cls(problem, None, np.zeros(1, dtype=np.int64))
+
+    @property
+    def goes_on(self) -> bool:
+        """Whether motions go on behind events: impacts, kinks, sticking and slipping."""
+        return self.modes is not None
+
+    @property
+    def between_events(self) -> Problem:
+        """The problem with the signs of all jumps and kinks as they are on one side of them, so that it is smooth."""
+        return self.problem if self.modes is None else with_signs(self.problem, self.modes)
+
+    def run(self, method: Method, times: Floats, steps: Steps) -> tuple[Run, float]:
+        """The run of a method with samples at `times`, shape (samples,), and what it took in seconds."""
+        if self.modes is None:
+            found = run(self.problem, method, times, self.cancelled, steps)
+            return found, found.wall_time
+        start = perf_counter()
+        found = run_on(self.problem, self.modes, method, times, self.cancelled, steps)
+        return found, perf_counter() - start
+
+
+def warm(runs: Runs, *methods: Method) -> None:
     """Loads the kernels of methods, so that no measured run has to."""
-    short = replace(problem, t_end=1e-3 * problem.t_end)
-    times, flag = np.array([0.0, short.t_end]), np.zeros(1, dtype=np.int64)
+    short = 1e-3 * runs.problem.t_end
     for method in methods:
-        run(short, method, times, flag, Steps(short.t_end, 1e-3 if method.is_adaptive else 0.0))
+        runs.run(method, np.array([0.0, short]), Steps(short, 1e-3 if method.is_adaptive else 0.0))
 
 
-def measure(problem: Problem, method: Method, reference: Reference, setting: Setting, *, repeats: int) -> Point:
+def measure(runs: Runs, method: Method, reference: Reference, setting: Setting, *, repeats: int) -> Point:
     """Runs a method and measures its time; `repeats` 1 measures once."""
+    problem = runs.problem
     problem.model.settle()
-    flag = np.zeros(1, dtype=np.int64)
 
-    def once() -> Run:
-        return run(problem, method, reference.times, flag, setting.steps(0.05 * problem.t_end))
+    def once() -> tuple[Run, float]:
+        return runs.run(method, reference.times, setting.steps(0.05 * problem.t_end))
 
-    first = once()
+    first, took = once()
     status = outcome_of(int(first.result.outcome), {}).status
-    seconds = repeated(lambda: once().wall_time, first.wall_time, repeats)
+    seconds = repeated(lambda: once()[1], took, repeats)
     evaluations, steps = int(first.result.evaluations), int(first.result.steps + first.result.rejected)
     error = error_of(first.states[:, : problem.degrees], reference) if first.result.outcome == FINE else None
     return Point(method.id, setting, status, error, evaluations, steps, seconds)

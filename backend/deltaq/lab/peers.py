@@ -14,6 +14,7 @@ from typing import Any
 
 import numpy as np
 
+from ..mechanics.jumps import frictions_of, impacts_of
 from ..simulation.problem import Floats, Problem
 from ..simulation.reference import Reference
 from . import heyoka
@@ -27,7 +28,9 @@ FINEST = 1e-12  # solve_ivp raises smaller relative tolerances by itself
 
 
 def peer_tracks(problem: Problem, reference: Reference) -> list[Track]:
-    """One track for each integrator of others that is there and can do the problem."""
+    """One track for each integrator of others that is there and can do the problem: none goes on behind an impact."""
+    if impacts_of(problem.model.scene) or frictions_of(problem.model.scene):
+        return []
     return [*_scipy_tracks(problem, reference), *_heyoka_tracks(problem, reference)]
 
 

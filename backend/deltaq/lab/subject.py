@@ -69,6 +69,15 @@ def subject_of(request: ExperimentRequest, samples: int = 501) -> Subject:
     return _posed(replace(begun, events=()), request, samples)  # about the equations, as if nothing ended the motion
 
 
+def followed_subject_of(request: ExperimentRequest, samples: int = 501) -> Subject:
+    """The subject of an experiment that runs a scene as a simulation does, behind impacts, sticking and slipping.
+
+    What ends motions is left out. Raises InputError where there is no such scene, or none with these values.
+    """
+    begun = begun_scene(request)
+    return _posed(replace(begun, events=tuple(each for each in begun.events if each.bounces)), request, samples)
+
+
 def hybrid_subject_of(request: ExperimentRequest, samples: int = 501) -> Subject | None:
     """The subject of an experiment that follows motions behind impacts, and while they stick and slip.
 

@@ -12,7 +12,7 @@ from ..simulation.method import Method
 from ..simulation.problem import Problem
 from ..simulation.reference import Reference
 from ..simulation.stiffness import spectrum
-from .measurement import Point, Setting, floor_of, too_slow
+from .measurement import Point, Runs, Setting, floor_of, too_slow
 
 SAMPLES = 41  # steps end on samples, so that no interpolation adds to the error
 TOLERANCES = tuple(10.0**-k for k in range(1, 14))
@@ -26,7 +26,7 @@ Runner = Callable[[Setting], Point]
 def fixed_steps(problem: Problem) -> tuple[Setting, ...]:
     """Steps, each half of the one before, that divide the time between two samples."""
     between = problem.t_end / (SAMPLES - 1)
-    fastest = spectrum(problem, 0.0, problem.state).size
+    fastest = spectrum(Runs.of(problem).between_events, 0.0, problem.state).size
     least = max(1, round(between * fastest / ROUGHEST))
     return tuple(Setting("step", between / (least * 2**level)) for level in range(LEVELS))
 

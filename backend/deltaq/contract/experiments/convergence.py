@@ -21,6 +21,7 @@ class ConvergenceAnswer(ExperimentAnswer):
     """Errors over steps, and the orders that they show."""
 
     reference: ReferenceMotion
+    events: bool = Field(description="whether motions go on behind events: impacts, kinks, sticking and slipping")
     points: tuple[MethodRun, ...] = Field(description="every run, also one that failed")
     orders: dict[str, OrderOfConvergence] = Field(description="by method, where one shows")
 

@@ -20,6 +20,7 @@ class WorkPrecisionAnswer(ExperimentAnswer):
     """Errors over times and over right-hand sides, and which method is the cheapest for each error."""
 
     reference: ReferenceMotion
+    events: bool = Field(description="whether motions go on behind events: impacts, kinks, sticking and slipping")
     machine: Machine
     repeats: int = Field(description="how often a run was measured at most")
     points: tuple[MethodRun, ...] = Field(description="every run, also one that failed")

@@ -31,6 +31,8 @@ def charts(result: Result, say: Say) -> list[Chart]:
     reference = result["reference"]
     told = {"methods": joined(reference["methods"], say), "error": reference["error"]}
     caption = say("labs.convergence.caption", t_end=result["t_end"], **told)
+    if result["events"]:
+        caption = f"{caption} {say('labs.convergence.events')}"
     x_axis = axis(say("labs.axis.step"), log=True)
     y_axis = axis(say("labs.axis.error"), log=True, range=RANGE, dtick=2)
     traces = [*_curves(result, say), *_triangles(result)]

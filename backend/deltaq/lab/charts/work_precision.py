@@ -58,6 +58,8 @@ def charts(result: Result, say: Say) -> list[Chart]:
 def _by_time(result: Result, told: dict[str, Any], say: Say) -> str:
     """The caption, with what code took that was compiled for a run alone."""
     caption = say("labs.work-precision.by-time", **told)
+    if result["events"]:
+        caption = f"{caption} {say('labs.work-precision.events')}"
     prepared = {point["method"]: point["preparation"] for point in result["points"] if point.get("preparation")}
     parts = (say("labs.work-precision.prepared", name=name_of(m, say), seconds=s) for m, s in prepared.items())
     return " ".join((caption, *parts))

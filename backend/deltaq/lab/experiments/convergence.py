@@ -14,9 +14,9 @@ from ...simulation.library import get_method
 from ...simulation.reference import reference
 from ..charts.convergence import charts
 from ..experiment import Experiment
-from ..measurement import floor_of, measure, order_of, warm
+from ..measurement import Runs, floor_of, measure, order_of, warm
 from ..report import Document, Report, measured
-from ..subject import bounded, methods_of, subject_of
+from ..subject import bounded, followed_subject_of, methods_of
 from ..sweep import SAMPLES, Track, fixed_steps, sweep
 from .work_precision import described
 
@@ -25,13 +25,15 @@ STEP_LIMIT = 400_000
 
 def run(request: ConvergenceRequest) -> Iterator[Report]:
     """Every method from coarse to fine."""
-    subject = subject_of(request, SAMPLES)
+    subject = followed_subject_of(request, SAMPLES)
     methods = methods_of(subject.problem, request.methods)
     problem = bounded(subject, STEP_LIMIT)
     trusted, settings = reference(problem), fixed_steps(problem)
-    warm(problem, *methods)
-    tracks = [Track(method.id, settings, partial(measure, problem, method, trusted, repeats=1)) for method in methods]
-    head = subject.described | {"reference": described(trusted, problem), "taken": measured(1)}
+    runs = Runs.of(problem)
+    warm(runs, *methods)
+    tracks = [Track(method.id, settings, partial(measure, runs, method, trusted, repeats=1)) for method in methods]
+    head = subject.described | {"reference": described(trusted, problem), "events": runs.goes_on}
+    head |= {"taken": measured(1)}
     for done, total in sweep(tracks, trusted):
         yield Report(done, total, head | _found(tracks, floor_of(trusted)))
 

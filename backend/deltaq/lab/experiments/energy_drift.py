@@ -24,7 +24,7 @@ from ...simulation.stiffness import spectrum
 from ..charts.energy_drift import charts
 from ..drift import departure, energy_scale, sample_times
 from ..experiment import Experiment
-from ..measurement import warm
+from ..measurement import Runs, warm
 from ..report import Document, Report, appended, rounded, significant
 from ..subject import methods_of, subject_of
 
@@ -45,7 +45,7 @@ def run(request: EnergyDriftRequest) -> Iterator[Report]:
     span = request.steps * size
     problem = replace(subject.problem, t_end=span, step_limit=4 * MOST_STEPS)
     head = subject.described | {"t_end": span, "steps": request.steps, "step": size, "tolerance": tolerance}
-    warm(problem, *methods)
+    warm(Runs.over_kinks(problem), *methods)
     scale, result = energy_scale(problem, PERIODS * PER_PERIOD * size), head | {"lines": []}
     yield Report(0, len(methods), result)
     for done, method in enumerate(methods, 1):

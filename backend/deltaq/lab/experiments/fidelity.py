@@ -28,7 +28,7 @@ from ..ladder.ending import known
 from ..ladder.findings import Finding, Growth, Ladder, Least, Measured, Rung
 from ..ladder.measurement import full_run
 from ..ladder.multipliers import Comparison, beside, compared
-from ..measurement import Point, Setting, too_slow, warm
+from ..measurement import Point, Runs, Setting, too_slow, warm
 from ..report import Document, Report, appended, machine, measured, rounded, significant
 from ..subject import subject_of, symbols_of
 from ..sweep import settings_of
@@ -164,7 +164,7 @@ def _methods(full: Yardstick, problem: Problem, values: Values) -> Iterator[list
         yield from ([] for _ in METHODS)
         return
     methods = [get_method(name) for name in METHODS]
-    warm(problem, *methods)
+    warm(Runs.over_kinks(problem), *methods)
     for method in methods:
         points: list[Point] = []
         for setting in settings_of(problem, method)[:COARSE]:

@@ -15,10 +15,10 @@ from ...simulation.problem import Problem
 from ...simulation.reference import Reference, reference
 from ..charts.work_precision import charts
 from ..experiment import Experiment
-from ..measurement import REPEATS, Point, floor_of, measure, order_of, warm
+from ..measurement import REPEATS, Point, Runs, floor_of, measure, order_of, warm
 from ..peers import peer_tracks
 from ..report import Document, Report, machine, measured, significant
-from ..subject import bounded, methods_of, subject_of
+from ..subject import bounded, followed_subject_of, methods_of
 from ..sweep import SAMPLES, Track, settings_of, sweep
 
 STEP_LIMIT = 1_000_000
@@ -27,18 +27,19 @@ WANTED = tuple(10.0 ** (-k / 4) for k in range(4, 49))  # tolerances that the ch
 
 def run(request: WorkPrecisionRequest) -> Iterator[Report]:
     """Every method from coarse to fine."""
-    subject = subject_of(request, SAMPLES)
+    subject = followed_subject_of(request, SAMPLES)
     methods = methods_of(subject.problem, request.methods)
     problem = bounded(subject, STEP_LIMIT)
     trusted = reference(problem)
-    warm(problem, *methods)
+    runs = Runs.of(problem)
+    warm(runs, *methods)
     tracks = [
-        Track(method.id, settings_of(problem, method), partial(measure, problem, method, trusted, repeats=REPEATS))
+        Track(method.id, settings_of(problem, method), partial(measure, runs, method, trusted, repeats=REPEATS))
         for method in methods
     ]
     tracks += peer_tracks(problem, trusted) if request.peers else []
-    head = subject.described | {"reference": described(trusted, problem), "machine": machine(), "repeats": REPEATS}
-    head |= {"taken": measured(REPEATS)}
+    head = subject.described | {"reference": described(trusted, problem), "events": runs.goes_on}
+    head |= {"machine": machine(), "repeats": REPEATS, "taken": measured(REPEATS)}
     for done, total in sweep(tracks, trusted):
         yield Report(done, total, head | found(tracks, floor_of(trusted)))
 
