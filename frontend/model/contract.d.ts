@@ -9775,6 +9775,11 @@ export interface components {
              * @description whether motions go on behind events: impacts, kinks, sticking and slipping
              */
             events: boolean;
+            /**
+             * Peers Left Out
+             * @description whether integrators of others were wanted that cannot follow the motion
+             */
+            peers_left_out: boolean;
             machine: components["schemas"]["Machine"];
             /**
              * Repeats

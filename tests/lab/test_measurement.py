@@ -105,11 +105,14 @@ def test_methods_keep_their_order_behind_events(name: str) -> None:
 
 
 def test_the_work_behind_events_is_charted() -> None:
-    *_, last = get_experiment("work-precision").run({"scene": BOUNCES, "t_end": 2.0, "methods": ["rk4", "dop853"]})
+    asked = {"scene": BOUNCES, "t_end": 2.0, "methods": ["rk4", "dop853"], "peers": True}
+    *_, last = get_experiment("work-precision").run(asked)
     points: list[dict[str, Any]] = last.result["points"]  # type: ignore[assignment]
     for method in ("rk4", "dop853"):
         assert min(p["error"] for p in points if p["method"] == method and p["error"] is not None) < 1e-10
+    assert {point["method"] for point in points} == {"rk4", "dop853"}
     assert all(point["time"] > 0.0 for point in points if point["status"] == "ok")
+    assert last.result["peers_left_out"] is True
     assert last.result["events"] is True
 
 

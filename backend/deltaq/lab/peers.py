@@ -28,10 +28,15 @@ FINEST = 1e-12  # solve_ivp raises smaller relative tolerances by itself
 
 
 def peer_tracks(problem: Problem, reference: Reference) -> list[Track]:
-    """One track for each integrator of others that is there and can do the problem: none goes on behind an impact."""
-    if impacts_of(problem.model.scene) or frictions_of(problem.model.scene):
+    """One track for each integrator of others that is there and can do the problem."""
+    if not can_follow(problem):
         return []
     return [*_scipy_tracks(problem, reference), *_heyoka_tracks(problem, reference)]
+
+
+def can_follow(problem: Problem) -> bool:
+    """Whether integrators of others follow the same motion: none of them goes on behind an impact, or sticks."""
+    return not (impacts_of(problem.model.scene) or frictions_of(problem.model.scene))
 
 
 def title_of(peer: str) -> str:

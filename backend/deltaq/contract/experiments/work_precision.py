@@ -21,6 +21,7 @@ class WorkPrecisionAnswer(ExperimentAnswer):
 
     reference: ReferenceMotion
     events: bool = Field(description="whether motions go on behind events: impacts, kinks, sticking and slipping")
+    peers_left_out: bool = Field(description="whether integrators of others were wanted that cannot follow the motion")
     machine: Machine
     repeats: int = Field(description="how often a run was measured at most")
     points: tuple[MethodRun, ...] = Field(description="every run, also one that failed")

@@ -60,6 +60,8 @@ def _by_time(result: Result, told: dict[str, Any], say: Say) -> str:
     caption = say("labs.work-precision.by-time", **told)
     if result["events"]:
         caption = f"{caption} {say('labs.work-precision.events')}"
+    if result["peers_left_out"]:
+        caption = f"{caption} {say('labs.work-precision.peers-left-out')}"
     prepared = {point["method"]: point["preparation"] for point in result["points"] if point.get("preparation")}
     parts = (say("labs.work-precision.prepared", name=name_of(m, say), seconds=s) for m, s in prepared.items())
     return " ".join((caption, *parts))

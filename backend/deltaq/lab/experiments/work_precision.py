@@ -16,7 +16,7 @@ from ...simulation.reference import Reference, reference
 from ..charts.work_precision import charts
 from ..experiment import Experiment
 from ..measurement import REPEATS, Point, Runs, floor_of, measure, order_of, warm
-from ..peers import peer_tracks
+from ..peers import can_follow, peer_tracks
 from ..report import Document, Report, machine, measured, significant
 from ..subject import bounded, followed_subject_of, methods_of
 from ..sweep import SAMPLES, Track, settings_of, sweep
@@ -39,6 +39,7 @@ def run(request: WorkPrecisionRequest) -> Iterator[Report]:
     ]
     tracks += peer_tracks(problem, trusted) if request.peers else []
     head = subject.described | {"reference": described(trusted, problem), "events": runs.goes_on}
+    head |= {"peers_left_out": request.peers and not can_follow(problem)}
     head |= {"machine": machine(), "repeats": REPEATS, "taken": measured(REPEATS)}
     for done, total in sweep(tracks, trusted):
         yield Report(done, total, head | found(tracks, floor_of(trusted)))
