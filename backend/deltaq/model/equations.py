@@ -48,11 +48,13 @@ class Equations:
     arrows: Mapping[str, Vector]  # force vectors by load, or by "load:place" where a load acts in several places
     events: Vector  # what is positive as long as the scene's events have not happened
     constraints: ConstraintEquations = NONE  # M q̈ = f + Aᵀλ where there are any; P then has −λ·b as well
+    has_impacts: bool = False  # which take energy at once, though P may be zero between them
 
     @property
     def is_powered(self) -> bool:
         """Whether anything feeds power in or takes it that is not in E + V."""
-        return self.constraints.is_driven or any(part != 0 for part in (self.power, *self.acceleration_power))
+        always = self.has_impacts or self.constraints.is_driven
+        return always or any(part != 0 for part in (self.power, *self.acceleration_power))
 
 
 def equations(scene: Scene) -> Equations:

@@ -307,6 +307,7 @@ class _Assembly:
             power=power,
             arrows={name: tuple(map(self._between, each)) for name, each in self.arrows.items()},
             events=tuple(self._watched()),
+            has_impacts=bool(self.contacts),
         )
 
     def _watched(self) -> Iterator[Expr]:
