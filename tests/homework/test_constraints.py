@@ -63,6 +63,30 @@ def test_answers_are_judged_where_the_constraint_is_kept(
     assert (verdict["outcome"], verdict["misconception"]) == (outcome, misconception)
 
 
+ONE_WAY = [
+    pytest.param("2*m*omega*(dot(x)*cos(omega*t) + dot(y)*sin(omega*t))", "correct", id="rate along the line"),
+    pytest.param("2*m*omega*sqrt(dot(x)^2 + dot(y)^2 - omega^2*(x^2 + y^2))", "wrong", id="root of its square"),
+    pytest.param("2*m*omega*abs(dot(x)*cos(omega*t) + dot(y)*sin(omega*t))", "wrong", id="its modulus"),
+]
+
+
+@pytest.mark.parametrize("rate", [4.0, -4.0])
+@pytest.mark.parametrize(("value", "outcome"), ONE_WAY)
+def test_a_reaction_is_asked_for_both_ways(value: str, outcome: str, rate: float) -> None:
+    """The force of a turning line, 2 m ω ṙ, presses on one side on the way out and on the other on the way back.
+
+    A motion may begin so fast that all rates near its own are of one sign.
+    """
+    scene = {**_document("particle-on-a-turning-line"), "loads": []}
+    scene["coordinates"] = [
+        {**each, "value": at, "rate": fast}
+        for each, at, fast in zip(scene["coordinates"], (1.0, 0.0), (rate, 1.0), strict=True)
+    ]
+    answer = {"syntax": "plain", "value": value}
+    task = f"constraint-force:{scene['constraints'][0]['name']}"
+    assert check_request({"scene": scene, "task": task, "answer": answer})["outcome"] == outcome
+
+
 @cache
 def _document(scene: str) -> Any:
     return write_scene(SCENES[scene])

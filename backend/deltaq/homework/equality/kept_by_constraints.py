@@ -9,7 +9,7 @@ from __future__ import annotations
 import math
 import random
 from collections.abc import Iterator, Sequence
-from itertools import islice
+from itertools import cycle, islice
 
 import sympy as sp
 
@@ -110,8 +110,8 @@ def _states(solution: Solution) -> tuple[dict[sp.Symbol, int], tuple[Row, ...]]:
     places = {model.acceleration(q): len(known) + i for i, q in enumerate(free[: len(moving)])}
 
     def moved() -> Iterator[Row]:
-        for _ in range(ATTEMPTS):
-            bent = _moved(_start(solution, source), positions, known[: len(free)], symbols)
+        for _, sense in zip(range(ATTEMPTS), cycle((1.0, -1.0)), strict=False):
+            bent = _moved(_start(solution, source, sense), positions, known[: len(free)], symbols)
             kept = bent and _moved(bent, rates, known[len(free) : 2 * len(free)], symbols)
             if kept:
                 yield [*kept, *further(kept)]
@@ -123,11 +123,14 @@ def _parameters(solution: Solution) -> list[str]:
     return [parameter.name for parameter in solution.scene.parameters]
 
 
-def _start(solution: Solution, source: random.Random) -> Row:
-    """Near the scene's own initial values and parameters: elsewhere a linkage may not close."""
+def _start(solution: Solution, source: random.Random, sense: float) -> Row:
+    """Near the scene's own initial values and parameters: elsewhere a linkage may not close.
+
+    Rates are near its own or, for `sense` −1, near those of the way back: |ṙ| and √(ẋ² + ẏ²) are no rates.
+    """
     scene = solution.scene
     positions = [c.value + REACH * (1 + abs(c.value)) * source.uniform(-1, 1) for c in scene.free]
-    rates = [c.rate + source.uniform(-1, 1) for c in scene.free]
+    rates = [sense * c.rate + source.uniform(-1, 1) for c in scene.free]
     parameters = [p.value * (1 + REACH * source.uniform(-1, 1) / 3) for p in scene.parameters]
     return [*positions, *rates, source.uniform(0, 1), *parameters]
 
