@@ -14,8 +14,11 @@ from deltaq.mechanics.library import load_scene, scene_ids
 from deltaq.mechanics.scene import Scene
 from deltaq.simulation.audit import Audit, largest_gap
 from deltaq.simulation.driver import simulate
+from deltaq.simulation.kernels.motion import FINE
 from deltaq.simulation.library import get_method, method_ids
 from deltaq.simulation.pieces import Pieces, Stretch
+from deltaq.simulation.run import Steps
+from deltaq.simulation.run import run as run_once
 from deltaq.simulation.service import problem_of, run
 from deltaq.simulation.trajectory import Trajectory
 
@@ -100,6 +103,49 @@ def test_forces_may_jump_at_the_end_and_shortly_before(method: str) -> None:
         assert found.reached == pytest.approx(end, rel=1e-14), told
         assert found.values[-1, 0] == pytest.approx(-3.0 + (end - begin) ** 2, abs=2e-6), told
         assert np.ptp(found.values[: -max(3, len(found.times) // 50), 0]) == 0.0, told
+
+
+NEAR = (-1e-12, -1e-14, -4e-15, -1e-15, 0.0, 1e-15, 1e-12)  # relative to the end
+UNITS = (-9, -8, -1, 1, 9)  # in the last place of the end
+BEFORE = (0.0, 2e-15, 3e-15, 1e-14)  # so much earlier there is another jump, except for 0
+PLACES = [
+    (1.0, at, first)
+    for at in (*(1.0 + part for part in NEAR), *(1.0 + k * 2.0**-53 for k in UNITS))
+    for first in BEFORE
+]
+PLACES += [(7.3, 7.3 + k * math.ulp(7.3), 0.0) for k in (*UNITS, 0)]
+
+
+@pytest.mark.one_in(4)
+@pytest.mark.parametrize("accuracy", [{"tolerance": 1e-6}, {"step": 1e-2}], ids=["tolerance", "step"])
+@pytest.mark.parametrize("method", method_ids())
+def test_a_run_comes_to_the_end_wherever_a_force_jumps_near_it(method: str, accuracy: dict[str, float]) -> None:
+    """At rest up to the first jump; behind the last one there may be nothing left of the span at all."""
+    for end, at, before in PLACES:
+        force = "F*(1 + sign(t - t1))/2" + (" + F*(1 + sign(t - t2))/2" if before else "")
+        problem = problem_of(driven(force, -3.0, F=2.0, t1=at, t2=at - before), end)
+        found, told = simulate(problem, get_method(method), **accuracy), (method, end, at, before)
+        assert found.outcome.status == "ok" or ("step" in accuracy and found.outcome.status == "step_blind"), told
+        assert (found.reached, found.times[-1]) == (end, end), told
+        assert found.estimate is not None
+        assert np.all(np.abs(found.values[:, 0] + 3.0) <= 1.5 * found.estimate.errors + 1e-13), told
+
+
+@pytest.mark.parametrize("method", method_ids())
+def test_so_does_one_of_very_short_steps(method: str) -> None:
+    """A millionth of the span is no longer than 10⁹ times the room that a jump is given."""
+    end = 0.5
+    problem = problem_of(driven("-k*x + F*(1 + sign(t - end))/2", 1.0, k=100.0, F=2.0, end=end), end)
+    found = run_once(
+        problem,
+        get_method(method),
+        np.array([0.0, end]),
+        np.zeros(1, dtype=np.int64),
+        Steps(4e-7, pieces=Audit(problem, get_method(method)).before(1e-6)),
+    )
+    assert (found.result.outcome, found.result.reached, found.times[-1]) == (FINE, end, end)
+    assert found.result.steps == pytest.approx(end / 4e-7, rel=1e-3)
+    assert found.states[-1, 0] == pytest.approx(math.cos(10.0 * end), abs=1e-4)
 
 
 def test_a_switch_costs_no_order() -> None:

@@ -6,8 +6,8 @@ import numpy as np
 
 from .compiler import inline, kernel, runtime_int
 from .extension import sample, watch_extension
-from .loop import Result, advance_time, begin, interruption
-from .motion import FINE, HELD, STEP_UNDERFLOW, Floats, Motion, finish_constrained, rhs
+from .loop import Result, advance_time, begin, interruption, sample_at_jump, time_reached
+from .motion import FINE, STEP_UNDERFLOW, Floats, Motion, finish_constrained, rhs
 from .plan import enter_piece, fit_step, record
 from .step import Weights, Workspace, accept, attempt
 from .step_control import (
@@ -114,6 +114,7 @@ def integrate(
             accept(end, workspace)
             steps += 1
             t, time_compensation = advance_time(plan, piece, t, h, time_compensation, 1 if ends_piece else 0)
+            filled = sample_at_jump(plan, piece, t, filled, out, workspace.old)
             record(plan, t, workspace.old)
             now = log_error(error)
             wanted = next_step_size(control, h, now, before, growth, wanted if ends_piece else 0.0)
@@ -126,4 +127,4 @@ def integrate(
         outcome = held_or_failed(
             motion, watch.switch, t, AHEAD * control.largest_step, workspace.old, workspace.derivatives[0], outcome
         )
-    return Result(outcome, filled, steps, rejected, evaluations, watch.switch.when[0] if outcome == HELD else t)
+    return Result(outcome, filled, steps, rejected, evaluations, time_reached(watch, outcome, times, filled, t))

@@ -8,6 +8,7 @@ import numpy as np
 
 from .compiler import inline, runtime_int
 from .motion import FINE, Floats, Motion, rhs
+from .plan import comes_to
 from .watch import Watch, check_events, set_sample_times
 
 OFF = 0.3872983346207417  # √(3/20): as far from the middle of a step are two places inside it, nodes of Gauss
@@ -122,8 +123,9 @@ def sample_between(
     `times` has shape (samples,), `out`, which is written, shape (samples, width). `is_high`: whether the step's order
     is so high that rates between its ends need accelerations seen there to be as good.
     """
-    n, count, reached = motion.degrees, times.size, t + h * (1.0 + 1e-9)
-    if times[first] > reached:
+    n, count, reached = motion.degrees, times.size, t + h
+    is_last = comes_to(times[count - 1], reached)
+    if not is_last and times[first] > reached:
         return first, 0
     knows = (
         rhs(motion, t, ends.old, ends.old_derivative) == FINE
@@ -132,7 +134,7 @@ def sample_between(
     smooth = knows and is_smooth(ends, h, n)
     looks = is_high != 0 and smooth
     sharp = looks and look_inside(motion, t, h, ends)
-    while first < count and times[first] <= reached:
+    while first < count and (is_last or times[first] <= reached):
         x = min((times[first] - t) / h, 1.0)
         for d in range(ends.old.size):
             out[first, d] = ends.old[d] + x * (ends.new[d] - ends.old[d])

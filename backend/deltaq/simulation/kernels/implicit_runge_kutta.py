@@ -12,8 +12,8 @@ from .compiler import inline, kernel, runtime_int
 from .hermite import sample_between
 from .implicit_step import attempt_implicit, differentiate, prepare
 from .implicit_workspace import ImplicitWorkspace, accept_step
-from .loop import Result, advance_time, begin, interruption
-from .motion import FINE, HELD, NEWTON_FAILED, STEP_UNDERFLOW, Floats, Motion, rhs
+from .loop import Result, advance_time, begin, interruption, sample_at_jump, time_reached
+from .motion import FINE, NEWTON_FAILED, STEP_UNDERFLOW, Floats, Motion, rhs
 from .newton import SLOW
 from .phase import Phase, momenta
 from .plan import enter_piece, fit_step, record
@@ -194,6 +194,7 @@ def integrate_implicit(
             accept_step(workspace)
             steps += 1
             t, time_compensation = advance_time(plan, piece, t, h, time_compensation, 1 if ends_piece else 0)
+            filled = sample_at_jump(plan, piece, t, filled, out, workspace.ends.old)
             evaluations += begin_step(phase, control, t, workspace)
             before_h, is_fresh, is_old = h, False, slowness > SLOW
             wanted = max(next_step(control, h, error), wanted if ends_piece else 0.0)
@@ -204,5 +205,4 @@ def integrate_implicit(
             rejected += is_adaptive
             outcome, wanted = smaller_step(control, outcome, t, h, error)
     outcome = explain_failure(motion, control, watch, t, h, outcome, workspace)
-    reached = watch.switch.when[0] if outcome == HELD else min(t, times[times.size - 1])
-    return Result(outcome, filled, steps, rejected, evaluations, reached)
+    return Result(outcome, filled, steps, rejected, evaluations, time_reached(watch, outcome, times, filled, t))

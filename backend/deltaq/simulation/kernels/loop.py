@@ -7,7 +7,7 @@ from typing import NamedTuple
 import numpy as np
 
 from .compiler import inline
-from .motion import CANCELLED, FINE, NOT_FINITE, STEP_LIMIT, Floats, Motion, rhs
+from .motion import CANCELLED, FINE, HELD, NOT_FINITE, STEP_LIMIT, Floats, Motion, rhs
 from .plan import Plan, record
 from .step_control import Control
 from .switch import detect_hold_ahead
@@ -55,6 +55,33 @@ def advance_time(
 ) -> tuple[float, float]:
     """The time after a step of size h, and its compensation; the end of a piece is met exactly."""
     return (plan.ends[piece], 0.0) if ends_piece != 0 else kahan_add(t, h, compensation)
+
+
+@inline
+def sample_at_jump(plan: Plan, piece: int, t: float, first: int, out: Floats, state: Floats) -> int:
+    """The samples left where a step ends at t and a jump is all that follows it; returns the number of the next one.
+
+    A jump has hardly any length, so that `state`, shape (width,), is that at its end, too. `out` has shape
+    (samples, width).
+    """
+    if t < plan.ends[piece] or piece + 2 != plan.sizes.size or plan.sizes[piece + 1] > 0.0:
+        return first
+    for k in range(first, out.shape[0]):
+        for d in range(state.size):
+            out[k, d] = state[d]
+    return int(out.shape[0])
+
+
+@inline
+def time_reached(watch: Watch, outcome: int, times: Floats, filled: int, t: float) -> float:
+    """How far a run came whose last step ended at t: to where friction holds it, or to the end if no sample is missing.
+
+    The last step may end some rounding before the end, or behind it. `times` has shape (samples,).
+    """
+    end = times[times.size - 1]
+    if outcome == HELD:
+        return float(watch.switch.when[0])
+    return float(end if filled == times.size else min(t, end))
 
 
 @inline

@@ -6,8 +6,8 @@ import numpy as np
 
 from .compiler import kernel, runtime_int
 from .hermite import sample_between, watch_between
-from .loop import Result, advance_time, begin, interruption
-from .motion import FINE, HELD, NEWTON_FAILED, Floats, Motion, rhs
+from .loop import Result, advance_time, begin, interruption, sample_at_jump, time_reached
+from .motion import FINE, NEWTON_FAILED, Floats, Motion, rhs
 from .newmark_step import (
     KNOWN,
     NewmarkWeights,
@@ -72,11 +72,11 @@ def integrate_newmark(
             accept_step(workspace)
             steps += 1
             t, time_compensation = advance_time(plan, piece, t, h, time_compensation, 1 if ends_piece else 0)
+            filled = sample_at_jump(plan, piece, t, filled, out, ends.old)
             record(plan, t, ends.old)
         elif not was_fresh or workspace.remembered[KNOWN] > 0:
             needs_matrix, outcome = True, FINE
             forget_accelerations(workspace)
     if outcome == NEWTON_FAILED:
         outcome = held_or_failed(motion, watch.switch, t, 2.0 * matrix_h, ends.old, ends.old_derivative, outcome)
-    reached = watch.switch.when[0] if outcome == HELD else min(t, times[times.size - 1])
-    return Result(outcome, filled, steps, 0, evaluations, reached)
+    return Result(outcome, filled, steps, 0, evaluations, time_reached(watch, outcome, times, filled, t))

@@ -6,7 +6,7 @@ import numpy as np
 
 from .compiler import kernel, runtime_int, subroutine
 from .hermite import sample_between, watch_between
-from .loop import Result, advance_time, begin, interruption
+from .loop import Result, advance_time, begin, interruption, sample_at_jump, time_reached
 from .motion import FINE, Floats, Motion, rhs
 from .phase import Phase
 from .plan import enter_piece, fit_step, record
@@ -80,5 +80,6 @@ def integrate_split(
             ends.old[d] = ends.new[d]
         steps += 1
         t, time_compensation = advance_time(plan, piece, t, h, time_compensation, 1 if ends_piece else 0)
+        filled = sample_at_jump(plan, piece, t, filled, out, ends.old)
         record(plan, t, ends.old)
-    return Result(outcome, filled, steps, 0, evaluations, min(t, times[times.size - 1]))
+    return Result(outcome, filled, steps, 0, evaluations, time_reached(watch, outcome, times, filled, t))

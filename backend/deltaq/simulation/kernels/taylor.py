@@ -15,10 +15,9 @@ from numpy.typing import NDArray
 
 from .aligned import aligned
 from .compiler import inline, kernel, runtime_int, subroutine
-from .loop import Result, advance_time, begin, interruption, to_a_number
+from .loop import Result, advance_time, begin, interruption, sample_at_jump, time_reached, to_a_number
 from .motion import (
     FINE,
-    HELD,
     NOT_FINITE,
     ROUNDING,
     SINGULAR,
@@ -352,8 +351,9 @@ def integrate_series(
         steps += 1
         near, row, least, wanted = step.size, 1 - row, np.inf, series.told[WANTED] if fixed == 0 else np.inf
         t, time_compensation = advance_time(plan, piece, t, near, time_compensation, 1 if step.ends_piece else 0)
+        filled = sample_at_jump(plan, piece, t, filled, out, old)
         record(plan, t, old)
     if outcome == STEP_UNDERFLOW:
         reach = AHEAD * control.largest_step
         outcome = held_or_failed(motion, watch.switch, t, reach, old, derivative, outcome)
-    return Result(outcome, filled, steps, rejected, evaluations, watch.switch.when[0] if outcome == HELD else t)
+    return Result(outcome, filled, steps, rejected, evaluations, time_reached(watch, outcome, times, filled, t))
