@@ -117,6 +117,47 @@ def parallelogram(rate: float = 3.0) -> Scene:
     )
 
 
+def flat_linkage() -> Scene:
+    """The parallelogram in three angles, with a coupler that has mass: it lies flat after (π − 0.5)/2 s."""
+    crank, other = ("l*cos(a)", "l*sin(a)"), ("d + l*cos(c)", "l*sin(c)")
+    coupler: Document = {
+        "name": "coupler",
+        "kind": "rigid",
+        "mass": "m",
+        "inertia": "m*d^2/12",
+        "angle": "b",
+        "position": ["l*cos(a) + d*cos(b)/2", "l*sin(a) + d*sin(b)/2"],
+    }
+    return scene(
+        {"a": (0.5, 2.0), "b": (0.0, 0.0), "c": (0.5, 2.0)},
+        {"m": 1.0, "l": 1.0, "d": 2.0},
+        [particle("one", *crank), particle("two", *other), coupler],
+        [
+            equation("along", "l*cos(a) + d*cos(b) = d + l*cos(c)"),
+            equation("across", "l*sin(a) + d*sin(b) = l*sin(c)"),
+        ],
+        weight=False,
+    )
+
+
+def equal_slider_crank() -> Scene:
+    """Crank and rod of one length: where both stand upright, the slider may stay and the crank turn on."""
+    bars: list[Document] = [
+        {"name": name, "kind": "rigid", "mass": "m", "inertia": "m*l^2/12", "angle": angle, "position": [x, y]}
+        for name, angle, x, y in (
+            ("crank", "a", "l*cos(a)/2", "l*sin(a)/2"),
+            ("rod", "b", "x - l*cos(b)/2", "l*sin(b)/2"),
+        )
+    ]
+    return scene(
+        {"a": (0.5, 0.64), "b": (0.5, 0.64), "x": (2.0 * np.cos(0.5), -1.28 * np.sin(0.5))},
+        {"m": 1.0, "l": 1.0},
+        [*bars, particle("slider", "x", "0")],
+        [equation("along", "l*cos(a) + l*cos(b) = x"), equation("across", "l*sin(a) = l*sin(b)")],
+        weight=False,
+    )
+
+
 def sleigh(speed: float = 0.2, spin: float = 1.5) -> Scene:
     """Chaplygin's sleigh: a skate at (x, y) along θ, the centre of mass a ahead of it."""
     body: Document = {

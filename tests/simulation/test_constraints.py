@@ -10,6 +10,8 @@ import pytest
 from tests.simulation.constrained import (
     G,
     double_pendulum,
+    equal_slider_crank,
+    flat_linkage,
     four_bar,
     parallelogram,
     particle,
@@ -170,6 +172,21 @@ def test_flat_parallelogram_ends_the_motion_where_it_may_fold() -> None:
     assert found.reached == pytest.approx(np.pi / 6, abs=1e-5)
     angle = np.pi / 2 + 3.0 * found.times
     assert np.abs(found.values[:, 0] - np.cos(angle)).max() < 1e-8
+
+
+@pytest.mark.parametrize("accuracy", [{"tolerance": 1e-9}, {"tolerance": 1e-5}, {"step": 0.01}], ids=str)
+@pytest.mark.parametrize("method", ["dop853", "dormand-prince-54", "rk4", "radau-5", "gauss-4", "implicit-midpoint"])
+@pytest.mark.parametrize("held", [flat_linkage(), equal_slider_crank()], ids=["flat", "upright"])
+def test_a_fork_is_told_as_one_by_whatever_fails_there(held: Scene, method: str, accuracy: dict[str, float]) -> None:
+    """Close to a fork Newton's corrections fail, steps vanish, or rounding decides on a branch: no step would help.
+
+    Both linkages are there when their angles of equal cranks have come to π, or to π/2: A loses a row.
+    """
+    found = simulate(problem_of(held, 3.5, 101), get_method(method), **accuracy)
+    assert found.outcome.status == "singular_constraints"
+    goal = np.pi if len(held.coordinates) == 3 and held.coordinates[2].name == "c" else np.pi / 2
+    last = found.values[-1] + (found.reached - found.times[-1]) * found.rates[-1]
+    assert last[0] == pytest.approx(goal, abs=0.03)
 
 
 def test_initial_values_are_moved_onto_the_constraints_and_told() -> None:

@@ -9,9 +9,21 @@ import numpy as np
 
 from .constraints import Reactions, is_locked, pivot_of
 from .event import Approach, Event, approaches, first_event, quick_event
+from .forks import fork_passed, is_at_fork
 from .integration import Flag, KernelArguments, motion_of, run_kernel, watch_of
 from .kernels.loop import Result
-from .kernels.motion import EVENT, FINE, HELD, LOCKED, NEWTON_FAILED, SINGULAR, STEP_LIMIT, STIFF
+from .kernels.motion import (
+    EVENT,
+    FINE,
+    HELD,
+    LOCKED,
+    NEWTON_FAILED,
+    NOT_FINITE,
+    SINGULAR,
+    STEP_LIMIT,
+    STEP_UNDERFLOW,
+    STIFF,
+)
 from .kernels.plan import CAPACITY, COUNT, STRIDE, Plan, make_plan
 from .kernels.step_control import Control
 from .method import Method, Partitioned, Series
@@ -26,6 +38,7 @@ from .transitions import Transition
 
 APART = 1e-6  # of the distance between two samples; the last one before an event is that far from it at least
 
+UNSOLVED = (NEWTON_FAILED, NOT_FINITE, STEP_UNDERFLOW)  # what a run may end with near a fork
 SHORT = 100_000  # right-hand sides; the time for so many is about that of compiling thoroughly
 
 
@@ -199,6 +212,9 @@ def _found(arguments: KernelArguments, plan: Plan, result: Result, wall_time: fl
         if len(out) < good and result.outcome in (FINE, EVENT):  # what the samples did not come to is not known
             result = result._replace(outcome=NEWTON_FAILED, reached=float(times[len(out)]), samples=len(out))
         good = len(out)
+    mesh_times, mesh_states = plan.times[: plan.progress[COUNT]], plan.states[: plan.progress[COUNT]]
+    result = _forked(problem, times[:good], out[:good, : 2 * problem.degrees], mesh_times, mesh_states, result)
+    good = min(good, result.samples)
     return Run(
         times[:good],
         out[:good],
@@ -207,11 +223,28 @@ def _found(arguments: KernelArguments, plan: Plan, result: Result, wall_time: fl
         wall_time,
         steps,
         held=_stop(arguments) if result.outcome == HELD else None,
-        mesh_times=plan.times[: plan.progress[COUNT]],
-        mesh_states=plan.states[: plan.progress[COUNT]],
+        mesh_times=mesh_times,
+        mesh_states=mesh_states,
         stride=int(plan.progress[STRIDE]),
-        reactions=reactions,
+        reactions=reactions and reactions.first(good),
     )
+
+
+def _forked(
+    problem: Problem, times: Floats, states: Floats, mesh_times: Floats, mesh_states: Floats, result: Result
+) -> Result:
+    """The result, saying whether the run ended at a fork of the constraints, or where it should have done so.
+
+    `times`, shape (samples,), and `states`, shape (samples, 2n), are the samples, the others the mesh.
+    """
+    if result.outcome in UNSOLVED:
+        later = mesh_times > times[-1] if len(times) else mesh_times >= 0.0
+        known, seen = np.append(times, mesh_times[later]), np.vstack([states, mesh_states[later]])
+        return result._replace(outcome=LOCKED) if is_at_fork(problem, known, seen, result.reached) else result
+    passed = fork_passed(problem, mesh_times, mesh_states) if result.outcome in (FINE, EVENT) else None
+    if passed is None:
+        return result
+    return result._replace(outcome=LOCKED, reached=passed, samples=int(np.searchsorted(times, passed, side="right")))
 
 
 def _control(limit: int, method: Method, steps: Steps, plan: Plan) -> Control:

@@ -143,6 +143,29 @@ def place_between(system: System, x: float, t: float, h: float, ends: Ends) -> N
     system.inputs[2 * n] = t + x * h
 
 
+@inline
+def settle(system: System, h: float) -> int:
+    """Projects the state that stands in `inputs`, and computes q̈ and λ there; returns the outcome."""
+    outcome = accelerate(system)
+    if outcome == FINE:
+        outcome = project(system, h)
+    return accelerate(system) if outcome == FINE else outcome
+
+
+@inline
+def see_between(system: System, x: float, t: float, h: float, ends: Ends) -> int:
+    """`accelerate` at the state t + xh of the cubic, on the constraints where it can be moved there; the outcome.
+
+    Close to a fork the rows of A are so small that those of a state off the constraints point anywhere.
+    """
+    place_between(system, x, t, h, ends)
+    outcome = settle(system, h)
+    if outcome in (FINE, LOCKED):
+        return outcome
+    place_between(system, x, t, h, ends)
+    return accelerate(system)
+
+
 @subroutine
 def is_locked_between(system: System, t: float, h: float, ends: Ends) -> bool:
     """Whether the constraints lose their independence within a step, at whose ends they look turned round.
@@ -152,16 +175,14 @@ def is_locked_between(system: System, t: float, h: float, ends: Ends) -> bool:
     low, high = 0.0, 1.0
     for _ in range(HALVINGS):
         middle = 0.5 * (low + high)
-        place_between(system, middle, t, h, ends)
-        if accelerate(system) != FINE:
+        if see_between(system, middle, t, h, ends) != FINE:
             return True
         first = turning(system, system.responses)
         if first <= 0.0:
             high = middle
             continue
         keep_rows(system)
-        place_between(system, high, t, h, ends)
-        if accelerate(system) != FINE:
+        if see_between(system, high, t, h, ends) != FINE:
             return True
         if turning(system, system.responses) > 0.0:
             return False
@@ -176,15 +197,6 @@ def take_state(system: System, t: float, state: Floats) -> None:
     for d in range(2 * n):
         system.inputs[d] = state[d]
     system.inputs[2 * n] = t
-
-
-@inline
-def settle(system: System, h: float) -> int:
-    """Projects the state that stands in `inputs`, and computes q̈ and λ there; returns the outcome."""
-    outcome = accelerate(system)
-    if outcome == FINE:
-        outcome = project(system, h)
-    return accelerate(system) if outcome == FINE else outcome
 
 
 @inline

@@ -1,0 +1,66 @@
+"""Whether a run ended where its constraints lose their independence: a linkage that is stretched or may fold.
+
+There A(q) of A q̇ + b = 0 loses rank. Close to it Newton's corrections and steps fail before the rank does, as what the
+constraints determine is a quotient of what both tend to zero.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from .problem import Floats, Problem
+
+PART = 0.05  # of the largest independence that the motion had
+CLOSE = 1e-5  # the same, where a run has gone on
+HALTING = 1e-3  # steps, of the median: a fork shortens them
+NOTHING = 1e-9  # singular values relative to the largest that are rounding errors
+
+
+def is_at_fork(problem: Problem, times: Floats, states: Floats, reached: float) -> bool:
+    """Whether the smallest singular value of A, each row by its largest length, fell to little of its largest.
+
+    `times` in order, shape (states,), and `states`, shape (states, 2n), tell the motion up to the time `reached`.
+    """
+    degrees = problem.degrees
+    if not (problem.is_constrained and len(times)):
+        return False
+    last = states[-1].copy()
+    last[:degrees] += (reached - times[-1]) * last[degrees:]
+    return bool(_independence(problem, np.append(times, reached), np.vstack([states, last]))[-1] <= PART)
+
+
+def fork_passed(problem: Problem, times: Floats, states: Floats) -> float | None:
+    """When a run crept over a fork: what it does behind it, rounding has decided. None if it did not.
+
+    `times` and `states`, shapes (mesh,) and (mesh, 2n), are its mesh.
+    """
+    if not problem.is_constrained or len(times) < 3:
+        return None
+    steps = np.diff(times)
+    halting = np.flatnonzero(steps <= HALTING * np.median(steps))
+    if not halting.size:
+        return None
+    left = _independence(problem, times, states)
+    forks = halting[np.minimum(left[halting], left[halting + 1]) <= CLOSE]
+    return float(times[forks[0]]) if forks.size else None
+
+
+def _independence(problem: Problem, times: Floats, states: Floats) -> Floats:
+    """The smallest singular value of A that is not always zero, relative to its largest, at each state."""
+    rows = _rows(problem, times, states)
+    lengths = np.linalg.norm(rows, axis=2).max(axis=0)
+    if not np.isfinite(rows).all() or not lengths.any():
+        return np.ones(len(times))
+    values = np.linalg.svd(rows / np.where(lengths > 0.0, lengths, 1.0)[:, None], compute_uv=False)
+    largest = values.max(axis=0)
+    smallest = values[:, int((largest > NOTHING * largest[0]).sum()) - 1]
+    return np.asarray(smallest / smallest.max())
+
+
+def _rows(problem: Problem, times: Floats, states: Floats) -> Floats:
+    """A at each state, shape (states, m, n)."""
+    n, layout = problem.degrees, problem.model.layout
+    table = problem.model.motion.table(problem.inputs(times, states))
+    first = n * (n + 1) // 2 + n + (n + 1 if layout.is_powered else 0)
+    count = len(layout.multipliers)
+    return np.asarray(table[:, first : first + count * n]).reshape(len(times), count, n)
