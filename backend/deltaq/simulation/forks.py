@@ -32,7 +32,7 @@ def is_at_fork(problem: Problem, times: Floats, states: Floats, reached: float) 
 def fork_passed(problem: Problem, times: Floats, states: Floats) -> float | None:
     """When a run crept over a fork: what it does behind it, rounding has decided. None if it did not.
 
-    `times` and `states`, shapes (mesh,) and (mesh, 2n), are its mesh.
+    `times`, shape (mesh,), and `states`, shape (mesh, 2n), are its mesh.
     """
     if not problem.is_constrained or len(times) < 3:
         return None
