@@ -52,6 +52,10 @@ WRONG = [
     pytest.param([equation("l + sin(dot(x)) = 0")], at_equation("constraint-not-linear", 4, 11, term="sin(dot(x))")),
     pytest.param([equation("y = l*ddot(x)/c")], at_equation("constraint-with-acceleration", 6, 7, coordinate="x")),
     pytest.param([equation("y = abs(x)")], at_equation("constraint-not-smooth", 4, 6, function="abs")),
+    pytest.param([equation("x^2 + y^2 <= l^2")], at_equation("inequality-in-scene", 10, 1, character="<")),
+    pytest.param([equation("x ≥ l")], at_equation("inequality-in-scene", 2, 1, character="≥")),
+    pytest.param([equation("\\dot{x} = l")], at_equation("latex-in-scene", 0, 1)),
+    pytest.param([equation("x = \\ell")], at_equation("latex-in-scene", 4, 1)),
     pytest.param([equation("y = x +")], at_equation("unexpected-end", 7, 0)),
     pytest.param([equation("y = x; x = 1")], (Problem("not-scalar", "/constraints/0/equation"),)),
     pytest.param([equation("l = c")], (Problem("constraint-without-coordinates", "/constraints/0"),)),
@@ -121,6 +125,40 @@ WRONG = [
 def test_what_is_no_constraint_is_refused_at_its_field(constraints: list[Table], problems: tuple[Problem, ...]) -> None:
     _, found = examine(document(*constraints))
     assert tuple(problem for problem in found if problem.severity == "error") == problems
+
+
+@pytest.mark.parametrize(
+    ("multiplier", "word"),
+    [("", "lambda"), ("", "λ"), ("", "lambda_1"), ("N", "N"), ("F_N", "F_N"), ("lambda_N", "λ_N")],
+)
+def test_forces_and_events_by_a_multiplier_are_told_what_it_is(multiplier: str, word: str) -> None:
+    """It looks like a function, a unit or a misspelt name, and is what a lecturer writes for μ N or for lifting off."""
+    named = {"multiplier": multiplier} if multiplier else {}
+    load = {"kind": "force", "name": "drag", "at": "slider", "force": [f"c*{word}", "0"]}
+    _, found = examine(
+        document(equation("y = l", **named), loads=[load], events=[{"name": "off", "value": f"0.5*{word}"}])
+    )
+    told = [(p.code, p.pointer, p.offset) for p in found if p.severity == "error"]
+    assert told == [("multiplier-in-scene", "/loads/0/force/0", 2), ("multiplier-in-scene", "/events/0/value", 4)]
+
+
+def test_a_name_that_no_constraint_declares_is_no_multiplier() -> None:
+    load = {"kind": "force", "name": "drag", "at": "slider", "force": ["c*F_N", "0"]}
+    _, found = examine(document(equation("y = l"), loads=[load]))
+    assert [problem.code for problem in found if problem.severity == "error"] == ["unknown-name"]
+
+
+def test_a_link_without_mass_is_told_what_takes_its_place() -> None:
+    """Its angle moves nothing but what constraints move: M has no inverse, though the motion is determined."""
+    link = [{"name": "psi", "unit": "rad", "value": 0.3}]
+    base = document()
+    bodies = {"coordinates": [*base["coordinates"], *link]}  # type: ignore[misc]
+    along, across = equation("x + l*cos(psi) = z"), {**equation("y + l*sin(psi) = c"), "name": "across"}
+    _, found = examine(document(along, across, **bodies))
+    told = [(problem.code, problem.pointer) for problem in found if problem.severity == "error"]
+    assert told == [("held-coordinate-without-inertia", "/coordinates/3")]
+    _, found = examine(document(equation("x = z"), **bodies))
+    assert [problem.code for problem in found if problem.severity == "error"] == ["coordinate-without-inertia"]
 
 
 def test_a_constraint_of_what_is_guided_holds_nothing() -> None:

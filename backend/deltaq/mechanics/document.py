@@ -57,7 +57,7 @@ def _scene(root: Reader) -> Iterator[Scene]:
     """The scene, if all its parts are sound; what it says of itself (no body, no freedom) only matters then."""
     if root.get("format", int, FORMAT) != FORMAT:
         root.complain("unknown-format", "format", expected=FORMAT)
-    context = Context(_names(root), _place_names(root), _dimension(root))
+    context = Context(_names(root), _place_names(root), _dimension(root), _multipliers(root))
     make = partial(
         Scene,
         _identifier(root),
@@ -141,6 +141,14 @@ def _place_names(root: Reader) -> tuple[str, ...]:
     """Points and bodies; a continuum is no place, for it is everywhere."""
     tables = (table for key in ("points", "bodies") for _, table in _well_formed(root, key))
     return tuple(str(table.get("name", "")) for table in tables if "material" not in table)
+
+
+def _multipliers(root: Reader) -> frozenset[str]:
+    """What the multipliers of its constraints may be called: as they say, or λ, λ₁, λ₂ … as for those that do not."""
+    tables = [table for _, table in _well_formed(root, "constraints")]
+    fresh = {"lambda", *(f"lambda_{k}" for k in range(1, len(tables) + 1))} if tables else set()
+    stated = {_text(table, "multiplier") for table in tables} - {""}
+    return frozenset(spelt for name in stated | fresh for spelt in (name, name.replace("lambda", "λ")))
 
 
 def _drawing(root: Reader, context: Context) -> Drawing:

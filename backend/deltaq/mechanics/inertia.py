@@ -100,6 +100,9 @@ def _singular(scene: Scene, columns: tuple[int, ...]) -> Iterator[Problem]:
     names = [scene.free[column].name for column in columns]
     index = next(i for i, c in enumerate(scene.coordinates) if c.name == names[-1])
     code = "coordinate-without-inertia" if len(names) == 1 else "dependent-coordinates"
+    conditions = [Expression("", condition.value) for condition in scene.conditions]
+    if len(names) == 1 and any(names[0] in each.names | each.rates for each in conditions):
+        code = "held-coordinate-without-inertia"
     yield Problem(code, f"/coordinates/{index}", parameters={"name": names[-1], "names": ", ".join(names)})
 
 

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from difflib import get_close_matches
 from fractions import Fraction
 from typing import TypeVar
@@ -33,6 +33,8 @@ NOT_OF: Mapping[type, str] = {
 }
 LIMIT = 64  # tables in a list
 NOTHING = Expression("0", Number(Fraction(0)))
+UNREAD_NAMES = frozenset({"unknown-name", "function-not-allowed", "unit"})
+INEQUALITIES = frozenset("<>≤≥")
 
 
 @dataclass(frozen=True)
@@ -42,6 +44,7 @@ class Context:
     names: Names
     places: tuple[str, ...]
     dimension: int
+    multipliers: frozenset[str] = frozenset()  # names of what no field may refer to, as it follows from the motion
 
 
 @dataclass
@@ -206,7 +209,8 @@ class Reader:
         try:
             expression = parse(text, self.named.names)
         except InputError as error:
-            self.problems.extend(problem.below(f"{self.pointer}/{key}") for problem in error.problems)
+            told = (_told_for_scenes(text, problem, self.named.multipliers) for problem in error.problems)
+            self.problems.extend(problem.below(f"{self.pointer}/{key}") for problem in told)
             return NOTHING
         if is_equation and isinstance(expression.tree, Equation):
             expression = Expression(text, difference(expression.tree.left, expression.tree.right))
@@ -236,3 +240,15 @@ class Reader:
         for key in sorted(self.table.keys() - self.used):
             near = get_close_matches(key, self.used, n=1)
             self.complain("unknown-field", escaped(key), field=key[:40], suggestion=near[0] if near else "")
+
+
+def _told_for_scenes(text: str, problem: Problem, multipliers: frozenset[str]) -> Problem:
+    """What cannot be read, as what its author meant by it: a multiplier, an inequality, LaTeX."""
+    word = text[problem.offset : problem.offset + (problem.length or 1)] if problem.offset is not None else ""
+    if problem.code in UNREAD_NAMES and word in multipliers:
+        return replace(problem, code="multiplier-in-scene", parameters={"name": word})
+    if problem.code == "unexpected-character" and word in INEQUALITIES:
+        return replace(problem, code="inequality-in-scene", parameters={"character": word})
+    if problem.code == "unexpected-character" and word == "\\":
+        return replace(problem, code="latex-in-scene", parameters={})
+    return problem
