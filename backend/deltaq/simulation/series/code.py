@@ -12,7 +12,7 @@ import ctypes.util
 import re
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
-from functools import cache, lru_cache
+from functools import cache, cached_property, lru_cache
 from itertools import count
 from threading import RLock
 from typing import Any
@@ -41,7 +41,7 @@ class Code:
     prefix: str = "v"  # of names, where two write the same function
     _count: int = 0
 
-    @property
+    @cached_property
     def kind(self) -> str:
         """The type of a number."""
         return "double" if self.lanes == 1 else f"<{self.lanes} x double>"

@@ -8,8 +8,8 @@ from typing import Any, overload
 
 from ...model import recurrences as r
 from ...model.recurrences import Recurrences
-from .code import Code, MachineCode, compiled, used
-from .operations import COMPARISONS, Operands, first, kept, later
+from .code import Code, MachineCode, compiled
+from .operations import COMPARISONS, Operands, beginnings, first, kept, later
 from .shape import Shape
 from .sums import Blocks, OfMotions, OfOperations, Sums, name_of, terms_of, width_of_sums
 
@@ -189,15 +189,14 @@ class _Writer:
                 continue
             value = self._joined(operation, values, constants)
             if not value:
-                terms = operation.sums(place)  # without any, first coefficients are not asked for
-                x = self._operands(
-                    operation,
-                    begin if terms else (),
+                places = {"a0": operation.a, "b0": operation.b, "y0": place}
+                asked_first = beginnings(operation.code)  # only these are read
+                x = Operands(
                     **self._now(operation, values, conditions),
-                    y0=begin[place] if terms else "",
-                    extra=extras[place - len(inputs)] if terms else "",
+                    **{name: begin[places[name]] for name in asked_first if name != "extra"},
+                    extra=extras[place - len(inputs)] if "extra" in asked_first else "",
                     constant=self._constant(operation, constants),
-                    sums=tuple(sums[t] for t in terms),
+                    sums=tuple(sums[t] for t in operation.sums(place)),
                     order=order,
                     inverse=inverse,
                 )
@@ -335,9 +334,7 @@ class _OneOrder(_Writer):
         begin, kept_ = behind[: r_.inputs + len(r_.operations)], behind[r_.inputs + len(r_.operations) :]
         constants = _Read(code, code.at("%given", shape.first_constant), range(shape.constants))
         self._order(inputs, state, begin, kept_, [], constants, code.load("%given", 0))
-        code.lines[:] = used(code.lines, [])
-        left = {line.partition(" = ")[0].strip() for line in code.lines}
-        self.asked.update(number for name, number in behind.names.items() if name in left)
+        self.asked.update(behind.asked)
 
     def _end(self, state: list[str], values: list[str], unit: str) -> None:
         self.code.do("%kn = add i64 %k, 1")
@@ -352,12 +349,12 @@ def _behind(recurrences: Recurrences) -> range:
 
 @dataclass(frozen=True)
 class _Read(Sequence[str]):
-    """Numbers in memory, each read where it is asked for; `names` are those of what was read."""
+    """Numbers in memory, each read where it is asked for; `asked` are those that were read."""
 
     code: Code
     base: str
     places: range
-    names: dict[str, int] = field(default_factory=dict)
+    asked: set[int] = field(default_factory=set)
 
     def __len__(self) -> int:
         return len(self.places)
@@ -368,7 +365,6 @@ class _Read(Sequence[str]):
     def __getitem__(self, number: slice) -> Sequence[str]: ...
     def __getitem__(self, number: int | slice) -> str | Sequence[str]:
         if isinstance(number, slice):
-            return _Read(self.code, self.base, self.places[number], self.names)
-        name = self.code.load(self.base, self.places[number])
-        self.names[name] = self.places[number]
-        return name
+            return _Read(self.code, self.base, self.places[number], self.asked)
+        self.asked.add(self.places[number])
+        return self.code.load(self.base, self.places[number])

@@ -45,23 +45,8 @@ class Operands:
 
 def first(code: Code, kind: int, x: Operands, function: str) -> str:
     """y₀; `function` is the name of the function that y₀ is of a₀, where it is one."""
-    simple: Mapping[int, Callable[[], str]] = {
-        r.CONSTANT: lambda: x.constant,
-        r.SHIFT: lambda: code.add(x.a0, x.constant),
-        r.SCALE: lambda: code.multiply(x.constant, x.a0),
-        r.ADD: lambda: code.add(x.a0, x.b0),
-        r.SUBTRACT: lambda: code.subtract(x.a0, x.b0),
-        r.MULTIPLY: lambda: code.multiply(x.a0, x.b0),
-        r.SQUARE: lambda: code.multiply(x.a0, x.a0),
-        r.DIVIDE: lambda: code.divide(x.a0, x.b0),
-        r.RECIPROCAL: lambda: code.divide(x.constant, x.b0),
-        r.ROOT: lambda: code.root(x.a0),
-        r.POWER: lambda: code.function("pow", x.a0, x.constant),
-        r.ANGLE: lambda: code.function("atan2", x.a0, x.b0),
-        r.CHOICE: lambda: code.select(x.a, x.b0, x.c0),
-    }
-    if kind in simple:
-        return simple[kind]()
+    if kind in _FIRST:
+        return _FIRST[kind](code, x)
     if function in ("sin", "cos"):
         return sine_and_cosine(code, x.a0)[function == "cos"]
     return code.function(function, x.a0)
@@ -69,23 +54,17 @@ def first(code: Code, kind: int, x: Operands, function: str) -> str:
 
 def kept(code: Code, kind: int, x: Operands) -> str:
     """What is the same in all orders: the reciprocal of what is divided by, or 2 a₀; 0 where there is nothing."""
-    one = code.number(1.0)
-    found: Mapping[int, Callable[[], str]] = {
-        r.SQUARE: lambda: code.add(x.a0, x.a0),
-        r.DIVIDE: lambda: code.divide(one, x.b0),
-        r.RECIPROCAL: lambda: code.divide(one, x.b0),
-        r.ROOT: lambda: code.divide(code.number(0.5), x.y0),
-        r.POWER: lambda: code.divide(one, x.a0),
-        r.QUOTIENT: lambda: code.divide(one, x.b0),
-        r.NEGATIVE_QUOTIENT: lambda: code.divide(one, x.b0),
-        r.ANGLE: lambda: code.divide(one, x.c0),
-    }
-    return found[kind]() if kind in found else code.number(0.0)
+    return _KEPT[kind](code, x) if kind in _KEPT else code.number(0.0)
 
 
 def later(code: Code, kind: int, x: Operands) -> str:
     """yₖ for k ≥ 1."""
     return _LATER[kind](code, x)
+
+
+def beginnings(kind: int) -> tuple[str, ...]:
+    """What `later` reads of order 0: names among a0, b0, y0 and extra."""
+    return _BEGINNINGS.get(kind, ())
 
 
 def _multiply(code: Code, x: Operands) -> str:
@@ -137,6 +116,50 @@ def _angle(code: Code, x: Operands) -> str:
     return code.multiply(code.multiply_add(code.negative(x.b), x.a0, ends), x.extra)
 
 
+_FIRST: Mapping[int, Callable[[Code, Operands], str]] = MappingProxyType(
+    {
+        r.CONSTANT: lambda _code, x: x.constant,
+        r.SHIFT: lambda code, x: code.add(x.a0, x.constant),
+        r.SCALE: lambda code, x: code.multiply(x.constant, x.a0),
+        r.ADD: lambda code, x: code.add(x.a0, x.b0),
+        r.SUBTRACT: lambda code, x: code.subtract(x.a0, x.b0),
+        r.MULTIPLY: lambda code, x: code.multiply(x.a0, x.b0),
+        r.SQUARE: lambda code, x: code.multiply(x.a0, x.a0),
+        r.DIVIDE: lambda code, x: code.divide(x.a0, x.b0),
+        r.RECIPROCAL: lambda code, x: code.divide(x.constant, x.b0),
+        r.ROOT: lambda code, x: code.root(x.a0),
+        r.POWER: lambda code, x: code.function("pow", x.a0, x.constant),
+        r.ANGLE: lambda code, x: code.function("atan2", x.a0, x.b0),
+        r.CHOICE: lambda code, x: code.select(x.a, x.b0, x.c0),
+    }
+)
+_KEPT: Mapping[int, Callable[[Code, Operands], str]] = MappingProxyType(
+    {
+        r.SQUARE: lambda code, x: code.add(x.a0, x.a0),
+        r.DIVIDE: lambda code, x: code.divide(code.number(1.0), x.b0),
+        r.RECIPROCAL: lambda code, x: code.divide(code.number(1.0), x.b0),
+        r.ROOT: lambda code, x: code.divide(code.number(0.5), x.y0),
+        r.POWER: lambda code, x: code.divide(code.number(1.0), x.a0),
+        r.QUOTIENT: lambda code, x: code.divide(code.number(1.0), x.b0),
+        r.NEGATIVE_QUOTIENT: lambda code, x: code.divide(code.number(1.0), x.b0),
+        r.ANGLE: lambda code, x: code.divide(code.number(1.0), x.c0),
+    }
+)
+_BEGINNINGS: Mapping[int, tuple[str, ...]] = MappingProxyType(
+    {
+        r.MULTIPLY: ("a0", "b0"),
+        r.SQUARE: ("extra",),
+        r.DIVIDE: ("y0", "extra"),
+        r.RECIPROCAL: ("y0", "extra"),
+        r.ROOT: ("extra",),
+        r.POWER: ("y0", "extra"),
+        r.RISE: ("b0",),
+        r.FALL: ("b0",),
+        r.QUOTIENT: ("extra",),
+        r.NEGATIVE_QUOTIENT: ("extra",),
+        r.ANGLE: ("a0", "b0", "extra"),
+    }
+)
 _LATER: Mapping[int, Callable[[Code, Operands], str]] = MappingProxyType(
     {
         r.CONSTANT: lambda code, _x: code.number(0.0),

@@ -136,21 +136,21 @@ class Blocks:
     terms: tuple[Term, ...]
     width: int
 
-    @property
+    @cached_property
     def blocks(self) -> int:
         """How many there are."""
         return -(-self._groups // MOST_GROUPS)
 
-    @property
+    @cached_property
     def groups(self) -> int:
         """Of sums, in a block."""
         return -(-self._groups // max(1, self.blocks))
 
-    @property
+    @cached_property
     def _groups(self) -> int:
         return -(-len(self.terms) // self.width)
 
-    @property
+    @cached_property
     def together(self) -> int:
         """Sums in a block."""
         return self.groups * self.width
