@@ -123,6 +123,24 @@ def test_rebounds_pile_up_on_a_moving_table_too(restitution: float) -> None:
     assert rebounds[-20:-1] == pytest.approx(restitution * rebounds[-21:-2], rel=0.02)
 
 
+@pytest.mark.parametrize(
+    ("restitution", "amplitude", "t_end"),
+    [pytest.param(0.3, 0.47, 14.0, id="piles up"), pytest.param(0.0, 0.5, 90.0, id="lands")],
+)
+def test_a_ball_that_comes_to_rest_in_every_period_does_so_at_late_times(
+    restitution: float, amplitude: float, t_end: float
+) -> None:
+    """It leaves where g = a ω² sin ωt. Rounding of the time moves a table by more than that of places."""
+    omega = math.tau
+    scene = change(load_scene("bouncing-ball"), parameters={"e": restitution, "a": amplitude, "omega": omega, "g": G})
+    found = motion(scene, t_end, 1e-9, "taylor")
+    assert found.outcome.status == "ok"
+    leaves = math.asin(G / (amplitude * omega**2)) / omega
+    released = [each.time for each in found.transitions if each.kind == "release"]
+    np.testing.assert_allclose(released, leaves + np.arange(len(released)) + round(released[0] - leaves), atol=2e-13)
+    assert len(released) >= t_end - 2.0
+
+
 def test_a_table_that_falls_faster_than_the_ball_lets_it_go() -> None:
     """z = a sin ωt rests on the table until −aω² sin ωt = −g, then it flies."""
     scene = change(scene_here("bouncing-ball"), parameters={"e": 0.0, "a": 0.05, "omega": 20.0})

@@ -83,12 +83,16 @@ class ModeState:
         )  # fmt: skip
 
     @cached_property
+    def _packed(self) -> Floats:
+        """What the model says of the motion: M row by row up to its diagonal, f, then what else it has."""
+        return self.problem.model.motion.table(self.row)[0]
+
+    @cached_property
     def mass(self) -> Floats:
         """M, shape (n, n)."""
         n = len(self.q)
-        packed = self.problem.model.motion.table(self.row)[0]
         found, places = np.zeros((n, n)), np.tril_indices(n)
-        found[places] = packed[: len(places[0])]
+        found[places] = self._packed[: len(places[0])]
         return found + np.tril(found, -1).T
 
     @cached_property
@@ -96,7 +100,7 @@ class ModeState:
         """A, shape (m, n), and γ, shape (m,), of the scene's constraints."""
         n, layout = len(self.q), self.problem.model.layout
         m, first = len(layout.multipliers), n * (n + 1) // 2 + n + (n + 1 if layout.is_powered else 0)
-        packed = self.problem.model.motion.table(self.row)[0]
+        packed = self._packed
         return packed[first : first + m * n].reshape(m, n), packed[first + m * n : first + m * n + m]
 
     def moved_by(self, forces: Floats, bends: Floats | None = None) -> Floats:
@@ -115,8 +119,7 @@ class ModeState:
     def accelerations(self) -> Floats:
         """q̈ in this mode, shape (n,)."""
         n = len(self.q)
-        packed = self.problem.model.motion.table(self.row)[0]
-        return self.moved_by(packed[n * (n + 1) // 2 : n * (n + 1) // 2 + n], self.kept[1])
+        return self.moved_by(self._packed[n * (n + 1) // 2 : n * (n + 1) // 2 + n], self.kept[1])
 
     @property
     def touching(self) -> list[int]:

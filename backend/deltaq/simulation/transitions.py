@@ -18,7 +18,7 @@ from typing import TypeAlias
 import numpy as np
 
 from ..model.modes import Modes
-from .mode_state import Facts, Mode, ModeState, size_of
+from .mode_state import TOUCHING, Facts, Mode, ModeState, size_of
 from .problem import Floats, Problem
 from .sliding import SLACK, draws, on_side, rate_of, settled, side_left_to, unkept
 
@@ -28,6 +28,7 @@ LOWEST = 1e-12  # the highest rebound that is taken for rest, relative to the co
 OFF_KINK = 1e-14  # how far a motion goes off a kink that is taken for rest in it, relative to the coordinates
 LATE = 1e-6  # s; so much behind the zero of a gap its event is found at most
 ROUNDING = 1e-15
+TICKS = 4.0  # of the time: units in the last place by which an event may be off
 HARDLY = 1e-13  # of a rate of slipping
 TINY = 1e-9  # of the rates: what rounding left at an event is no more
 NOTHING = 1e-12  # of what an impulse would do without constraints: they take all of it
@@ -186,10 +187,18 @@ def _contact_before(current: ModeState, value: Callable[[Facts], float], sign: f
 
 
 def _closed(current: ModeState, contact: int) -> ModeState:
-    """The state when a gap was zero; `current` is that when it was less by its offset."""
+    """The state when a gap was zero; `current` is that when it was less by its offset.
+
+    What rounding leaves of the gap is taken away: rebounds that are as low would sink behind the contact one by one.
+    """
     facts, row = current.facts, current.modes.bounded + contact
     bend = float(facts.a[row] @ current.accelerations + facts.bias[row])
-    return _at_zero(current, float(facts.gaps[contact]), float(facts.w[row]), bend)
+    found = _at_zero(current, float(facts.gaps[contact]), float(facts.w[row]), bend)
+    gap, along = float(found.facts.gaps[contact]), found.moved_by(found.facts.a[row])
+    lift = float(found.facts.a[row] @ along)
+    if not (-TOUCHING * found.scale(contact) * size_of(found.q) <= gap < 0.0 and lift > 0.0):
+        return found
+    return replace(found, q=found.q - gap / lift * along)
 
 
 def _at_zero(current: ModeState, value: float, rate: float, bend: float) -> ModeState:
@@ -240,8 +249,10 @@ def _rests(current: ModeState, row: int, contact: int) -> bool:
     pull = -float(facts.a[row] @ current.accelerations + facts.bias[row])
     if not pull > 0.0:
         return False
-    height, lost = rebound**2 / (2.0 * pull) / current.scale(contact), 1.0 - e**2
-    return height <= LOWEST * size_of(current.q) and height * lost <= HEIGHT * size_of(current.q)
+    height, lost, size = rebound**2 / (2.0 * pull) / current.scale(contact), 1.0 - e**2, size_of(current.q)
+    rounding = TICKS * math.ulp(current.time) * abs(float(facts.w[row] - facts.a[row] @ current.v))
+    unknown = rounding / current.scale(contact)  # where the contact is that moves with the time
+    return height <= LOWEST * size + unknown and height * lost <= HEIGHT * size + unknown
 
 
 def _resolved(current: ModeState, closed: frozenset[int], released: int | None, come: int | None = None) -> ModeState:
@@ -345,9 +356,14 @@ def _lost(current: ModeState, held: list[bool]) -> int | None:
 
 
 def _offset(current: ModeState) -> ModeState:
-    """Offsets that make all watched values positive: what has just happened does not happen again at once."""
+    """Offsets that make all watched values positive: what has just happened does not happen again at once.
+
+    What moves with the time alone, a table say, is somewhere else by what rounding does to the time.
+    """
     modes = current.modes
     plain = replace(current, mode=replace(current.mode, offsets=(0.0,) * modes.watched))
+    later = replace(plain, time=plain.time + TICKS * math.ulp(plain.time))
+    moved = np.abs(later.watched - plain.watched)
     ending = len(modes.ending)
     first = ending + len(modes.kinks)
     pins, last = first + 2 * modes.first_pin, first + 2 * modes.bounded
@@ -355,5 +371,6 @@ def _offset(current: ModeState) -> ModeState:
     for place, value in enumerate(plain.watched):
         room = HARDLY * size_of(current.v) if first <= place < pins else ROUNDING * size_of(current.q)
         room *= current.scale(place - last) if place >= last else 1.0
+        room += float(moved[place])
         offsets.append(0.0 if place < ending or value > room else room - min(float(value), 0.0))
     return replace(current, mode=replace(current.mode, offsets=tuple(offsets)))
