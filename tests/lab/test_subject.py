@@ -38,7 +38,8 @@ JUMPS: dict[str, tuple[dict[str, Any], tuple[str, ...]]] = {
 
 
 RANGE = {"parameter": "m", "from": 1.0, "to": 2.0, "count": 8}
-BEHIND_EVENTS = {"poincare-section", "work-precision", "convergence"}  # see test_hybrid_orbits, test_measurement
+# see test_hybrid_orbits, test_hybrid_bifurcations, test_measurement
+BEHIND_EVENTS = {"poincare-section", "bifurcation", "work-precision", "convergence"}
 ASKED = {"stability-map": {"x": RANGE, "y": RANGE}, "bifurcation": {"sweep": RANGE}}
 
 

@@ -13,7 +13,7 @@ import numpy as np
 
 from ..simulation.ensemble import Ensemble, in_lanes
 from ..simulation.integration import Flag
-from ..simulation.march import Integers
+from ..simulation.march import Integers, Truths
 from ..simulation.problem import Floats, Problem
 from ..simulation.run import Steps
 
@@ -69,6 +69,11 @@ class Flow:
         parameters = list(self.problem.parameters)
         parameters[self.place] = value
         return replace(self.problem, parameters=tuple(parameters))
+
+    def admits(self, value: float, states: Floats) -> Truths:
+        """From which of the states (q, q̇), shape (states, 2n), motions can begin at the time 0: shape (states,)."""
+        del value  # nothing is in the way of a motion that one set of equations describes
+        return np.asarray(np.isfinite(states).all(axis=1))
 
     def coarser(self, factor: float) -> Flow:
         """The same with neighbours that much farther away: what differs is what differences are wrong by."""

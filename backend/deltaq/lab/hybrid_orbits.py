@@ -157,9 +157,10 @@ def crossings_of(run: Run, surface: Surface) -> Floats:
 def _crossings(part: Part, surface: Surface) -> tuple[Floats, bool, bool]:
     """The crossings of a part, and whether the first is its beginning, and the last its end."""
     rows, jet = part.rows, surface.values(part.rows)
-    scale = (np.abs(jet[:, 1:-1]) * np.abs(rows[:, :-1])).sum(axis=1)
+    # by the size of all the part: what lies on a table that comes through z = 0 is known no better there
+    scale = max(float((np.abs(jet[:, 1:-1]) * np.abs(rows[:, :-1])).sum(axis=1).max()), float(np.abs(jet[:, 0]).max()))
     turns = surface.shift(jet[:, 0])
-    values = np.where(np.abs(jet[:, 0] - turns) <= ZERO * np.maximum(scale, np.abs(jet[:, 0])), turns, jet[:, 0])
+    values = np.where(np.abs(jet[:, 0] - turns) <= ZERO * scale, turns, jet[:, 0])
     shift = surface.shift(0.5 * (values[:-1] + values[1:]))
     left, right = values[:-1] - shift, values[1:] - shift
     (where,) = np.nonzero(surface.is_crossed(left, right) & np.isfinite(left + right))

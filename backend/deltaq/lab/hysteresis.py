@@ -79,7 +79,7 @@ class Sweep:
         state, density, unit = self.own, 0.0, self.unit(float(values[0]))
         for value in map(float, values):
             unit = self.unit(value) if self.is_driven else unit
-            found, state, density = self._settled(value, state + self._push, unit, density)
+            found, state, density = self._settled(value, self._pushed(value, state), unit, density)
             if found.folds and not self.is_driven:
                 unit = found.span / found.folds
             yield found
@@ -89,10 +89,11 @@ class Sweep:
         """Whether something drives the scene."""
         return self.closing.period is not None
 
-    @property
-    def _push(self) -> Floats:
-        width = len(self.own)
-        return np.asarray(PUSH * self.closing.scales[:width] * np.cos(1.0 + 2.0 * np.arange(width)))
+    def _pushed(self, value: float, state: Floats) -> Floats:
+        """The state a little beside itself, unless that is behind a contact."""
+        width = len(state)
+        moved = state + PUSH * self.closing.scales[:width] * np.cos(1.0 + 2.0 * np.arange(width))
+        return np.asarray(moved if self.view.flow.admits(value, moved[None, :])[0] else state)
 
     def _settled(self, value: float, state: Floats, unit: float, density: float) -> tuple[Settled, Floats, float]:
         before = self._transient(value, state, unit)

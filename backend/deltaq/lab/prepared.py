@@ -21,20 +21,24 @@ from ..language.parser import parse
 from ..language.tree import Node
 from ..mechanics.changes import change
 from ..mechanics.requests import inside
+from ..model.modes import Modes, modes_of
 from ..model.observables import Observables
 from ..simulation.derivatives import accelerations
 from ..simulation.problem import Floats, Problem
+from ..simulation.service import require_no_event
 from .closing import Closing
 from .flow import NUDGE, Flow
-from .hysteresis import Sweep
+from .hybrid_flow import Allowance, HybridFlow, HybridView
+from .hysteresis import Settled, Sweep
 from .passages import PER_STEP, View
 from .period import clocks, common_period
 from .plane import SIGNS, parsed
 from .sliding import require_no_sliding
-from .subject import Subject, bounded, free_subject_of, parameter_of
+from .subject import Subject, bounded, free_subject_of, hybrid_subject_of, parameter_of
 
 MOST_STEPS = 200_000  # of one motion
 PART = 0.25  # of a period: no step is longer
+MOST_EVENTS = 60_000  # of both sweeps together: a minute or two
 TRIED = 20  # periods of the scene's own motion that tell the scales
 PROBED = 0.25  # of the longest time: what a motion without a drive is followed for, to find its passages
 FEWEST = 4  # passages that tell how long one takes
@@ -55,39 +59,74 @@ class Prepared:
     plane: str
     sweep: Sweep
 
+    @property
+    def allowance(self) -> Allowance:
+        """Behind how many events periodic motions may go on; there is none to be kept where motions are smooth."""
+        flow = self.sweep.view.flow
+        return flow.allowance if isinstance(flow, HybridFlow) else Allowance()
+
+    def events(self, one: Settled) -> int:
+        """Behind how many events a motion that repeats goes on until it does."""
+        flow = self.sweep.view.flow
+        if one.start is None or not isinstance(flow, HybridFlow):
+            return 0
+        return flow.events(one.value, one.start, one.span)
+
 
 def prepared(request: BifurcationRequest) -> Prepared:
     """What a request means. Raises InputError that says what to ask instead."""
-    subject = free_subject_of(request)
+    hybrid = hybrid_subject_of(request)
+    subject = hybrid or free_subject_of(request)
     place = parameter_of(subject, request.sweep.parameter, "/sweep/parameter")
     _require_values(subject, request)
     problem = bounded(subject, MOST_STEPS)
-    require_no_sliding(problem)
+    if hybrid is None:
+        require_no_sliding(problem)
+    else:
+        with inside("/scene"):
+            require_no_event(subject.scene, problem)
     values = np.linspace(request.sweep.start, request.sweep.to, request.sweep.count)
     name = request.sweep.parameter
     observables = Observables(subject.scene, (name,))
     drive = _drive(request, subject, values) if observables.depends_on_time else None
     own = problem.state[: 2 * problem.degrees].copy()
     unit = float(min(map(drive, values))) if drive else request.t_end / TRIED
-    rough = Flow(problem, place, PART * unit, np.zeros(1, dtype=np.int64), np.full(len(own) + 1, NUDGE))
+    rough = _flow(problem, place, PART * unit, modes_of(subject.scene) if hybrid else None)
     rough = rough if drive else _begun(rough, values, own)
     path = _path(rough, values, own, unit)
     scales = np.append(_scales(problem, path), float(np.ptp(values)))
     plane = _plane(request, subject, is_driven=drive is not None)
     axis = parsed(request.vertical.strip() or subject.scene.free[0].name, subject.scene, "/vertical")
-    view = View(replace(rough, nudges=NUDGE * scales), observables, axis, plane, SIGNS[request.direction])
+    view = _view(replace(rough, nudges=NUDGE * scales), observables, axis, plane, SIGNS[request.direction])
     _require_function(view)
-    _require_influence(rough, values, _around(path, scales[:-1]), drive)
+    if not observables.depends_at_impacts(name):
+        _require_influence(rough, values, _around(path, scales[:-1]), drive)
     spacing: Callable[[float], float] = drive or _spacing(view, values, own, request.t_end)
     if drive is None:
         own = _started(view, values, own, request.t_end)
         view = replace(view, flow=replace(view.flow, largest=PART * spacing(float(values[0]))))
     _require_time(request, [spacing(value) for value in (float(values[0]), float(values[-1]))])
+    if isinstance(view.flow, HybridFlow):
+        _require_few_events(request, view.flow, values, own, spacing)
     surface = view.surface if plane is not None and drive is None else None
     whole = scales if drive else np.concatenate([scales[:-1], [spacing(float(values[0]))], scales[-1:]])
     closing = Closing(view.flow, drive, surface, 1, whole, _turns(problem, _around(path, scales[:-1])))
     sweep = Sweep(view, closing, spacing, own, request.skip, request.crossings, request.folds)
     return Prepared(request, subject, values, plane.text if plane else "", sweep)
+
+
+def _flow(problem: Problem, place: int, largest: float, modes: Modes | None) -> Flow:
+    width, cancelled = 2 * problem.degrees, np.zeros(1, dtype=np.int64)
+    nudges = np.full(width + 1, NUDGE)
+    if modes is None:
+        return Flow(problem, place, largest, cancelled, nudges)
+    return HybridFlow(problem, place, largest, cancelled, nudges, modes, Allowance())
+
+
+def _view(flow: Flow, observables: Observables, axis: Expression, plane: Expression | None, direction: int) -> View:
+    if isinstance(flow, HybridFlow):
+        return HybridView(flow, observables, axis, plane, direction)
+    return View(flow, observables, axis, plane, direction)
 
 
 def _require_values(subject: Subject, request: BifurcationRequest) -> None:
@@ -260,3 +299,20 @@ def _require_time(request: BifurcationRequest, units: list[float]) -> None:
     if seconds > request.t_end:
         told = {"periods": periods, "seconds": float(f"{seconds:.3g}"), "t_end": request.t_end}
         raise RequestError(Mistake("bifurcation-too-long", "/t_end", parameters=told))
+
+
+def _require_few_events(
+    request: BifurcationRequest, flow: HybridFlow, values: Floats, own: Floats, spacing: Callable[[float], float]
+) -> None:
+    """Raises RequestError where the sweeps would go on behind too many events, told by the scene's own motion."""
+    some = [float(values[0]), float(values[len(values) // 2]), float(values[-1])]
+    each = max(flow.events(value, own, TRIED * spacing(value)) for value in some) / TRIED
+    one = each * 2 * (request.skip + request.crossings)
+    if one * len(values) > MOST_EVENTS:
+        told: dict[str, str | float | int] = {
+            "each": float(f"{each:.2g}"),
+            "events": float(f"{one * len(values):.2g}"),
+            "most": MOST_EVENTS,
+            "count": int(MOST_EVENTS / one),
+        }
+        raise RequestError(Mistake("bifurcation-many-events", "/sweep/count", parameters=told))

@@ -77,10 +77,18 @@ class Observables:
     def depends_on_time(self) -> bool:
         """Whether the time stands in the equations of motion, or in what happens at impacts."""
         eqs, time = self._equations, self._symbols.time
-        laws = ((event.value, event.restitution) for event in self.scene.events if event.bounces)
-        impacts = [self._written(each) for pair in laws for each in pair if each is not None]
-        parts = (*(entry for row in eqs.mass_matrix for entry in row), *eqs.forcing, *impacts)
+        parts = (*(entry for row in eqs.mass_matrix for entry in row), *eqs.forcing, *self._impacts)
         return any(time in se.sympify(part).free_symbols for part in parts)
+
+    def depends_at_impacts(self, name: str) -> bool:
+        """Whether a parameter that is kept stands in what happens at impacts."""
+        return any(self._symbols.values[name] in se.sympify(part).free_symbols for part in self._impacts)
+
+    @property
+    def _impacts(self) -> tuple[Expr, ...]:
+        """The gaps of contacts, and their restitution."""
+        laws = ((event.value, event.restitution) for event in self.scene.events if event.bounces)
+        return tuple(self._written(each) for pair in laws for each in pair if each is not None)
 
     def _written(self, asked: Expression) -> Expr:
         found = guided_into(self.scene, to_symengine(asked.tree, self._symbols))

@@ -85,7 +85,7 @@ class ModeState:
     @cached_property
     def _packed(self) -> Floats:
         """What the model says of the motion: M row by row up to its diagonal, f, then what else it has."""
-        return self.problem.model.motion.table(self.row)[0]
+        return np.asarray(self.problem.model.motion.table(self.row)[0])
 
     @cached_property
     def mass(self) -> Floats:

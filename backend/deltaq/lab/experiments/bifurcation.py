@@ -59,9 +59,11 @@ def run(request: BifurcationRequest) -> Iterator[Report]:
     _require_motions(made, found)
     if request.orbits:
         yield Report(SWEPT, TOTAL, _told(made, found))
+        made.allowance.renew()
         for branch in _search(made).branches(_seeds(made, found)):
             found.written.append(_written(made, branch, len(found.branches)))
             found.branches.append(branch)
+            made.allowance.renew()
             share = len(found.branches) / MOST_BRANCHES
             yield Report(min(SWEPT + int((TOTAL - SWEPT) * share), TOTAL - 1), TOTAL, _told(made, found))
     yield Report(TOTAL, TOTAL, _told(made, found))
@@ -83,8 +85,10 @@ def _search(made: Prepared) -> Search:
 
 
 def _seeds(made: Prepared, found: _Found) -> list[Settled]:
-    """Motions that repeat, those of few folds first; and, where something drives the scene, its own start."""
-    settled = sorted((one for one in [*found.up, *found.down] if one.folds), key=lambda one: one.folds)
+    """Motions that repeat, of few folds and few events first; where something drives the scene, its own start, too."""
+    settled = sorted(
+        (one for one in [*found.up, *found.down] if one.folds), key=lambda one: (one.folds, made.events(one))
+    )
     if made.sweep.is_driven and not settled:
         value = float(made.values[0])
         settled.append(Settled(value, made.sweep.own, np.zeros(0), 1, made.sweep.unit(value), "ok"))
@@ -108,7 +112,7 @@ def _told(made: Prepared, found: _Found) -> Document:
         "branches": [branch for branch, _ in found.written],
         "bifurcations": [one for _, located in found.written for one in located],
         "feigenbaum": rounded(feigenbaum(found.branches), 5),
-        "complete": len(found.branches) < MOST_BRANCHES,
+        "complete": len(found.branches) < MOST_BRANCHES and not made.allowance.is_exhausted,
         "points": len(seen),
         "extent": significant(extent),
     }
