@@ -24,6 +24,7 @@ def scene(
     dimension: int = 2,
     loads: Sequence[Document] = (),
     events: Sequence[Document] = (),
+    positive: bool = False,
 ) -> Scene:
     """A scene without units: coordinates with value and rate, parameters with values; weight along the last axis."""
     down = [*["0"] * (dimension - 1), "-g"]
@@ -36,7 +37,7 @@ def scene(
             "summary": {"de": "Eigene", "en": "Own"},
             "dimension": dimension,
             "coordinates": [{"name": name, "value": q, "rate": v} for name, (q, v) in coordinates.items()],
-            "parameters": [{"name": name, "value": value, "positive": False} for name, value in parameters.items()],
+            "parameters": [{"name": name, "value": value, "positive": positive} for name, value in parameters.items()],
             "points": [{"name": name, "position": at} for name, at in (points or {}).items()],
             "bodies": list(bodies),
             "loads": [*gravity, *loads],
@@ -137,6 +138,20 @@ def flat_linkage() -> Scene:
             equation("across", "l*sin(a) + d*sin(b) = l*sin(c)"),
         ],
         weight=False,
+    )
+
+
+def swing_seat() -> Scene:
+    """A seat that hangs level on two parallel rods of 1 m: it does not turn, and swings as a pendulum does."""
+    ends = {name: [f"x + ({at})*cos(p)", f"y + ({at})*sin(p)"] for name, at in (("left", "-1/2"), ("right", "1/2"))}
+    pivots = {"over_left": ["-1/2", "0"], "over_right": ["1/2", "0"]}
+    return scene(
+        {"x": (0.6, 0.0), "y": (-0.8, 0.0), "p": (0.0, 0.0)},
+        {"m": 2.0, "J": 0.3, "l": 1.0, "g": G},
+        [{"name": "seat", "kind": "rigid", "mass": "m", "inertia": "J", "angle": "p", "position": ["x", "y"]}],
+        [rod(f"of_{name}", f"over_{name}", name) for name in ends],
+        points=ends | pivots,
+        positive=True,
     )
 
 

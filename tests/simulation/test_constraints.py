@@ -19,6 +19,7 @@ from tests.simulation.constrained import (
     rod,
     scene,
     sleigh,
+    swing_seat,
 )
 
 from deltaq.errors import Problem as Mistake
@@ -143,6 +144,20 @@ def test_short_runs_do_not_wait_for_machine_code_of_long_ones(scene: Scene, meth
     problem = replace(problem_of(scene, 0.1, 3), model=build(equations(scene), scene))
     assert simulate(problem, get_method(method), step=0.01, with_error=False).outcome.status == "ok"
     assert not problem.model.is_thorough
+
+
+@pytest.mark.parametrize("t_end", [1.0, 5.0])
+@pytest.mark.parametrize(
+    ("method", "tolerance"), [("dop853", 1e-9), ("gauss-6", 1e-9), ("rk4", 1e-7), ("stormer-verlet", 1e-6)]
+)
+def test_a_seat_on_parallel_rods_swings_as_a_pendulum(method: str, tolerance: float, t_end: float) -> None:
+    """Its angle is zero all the time, where parts of a solution in symbols may have no value; long runs have it."""
+    found = simulate(problem_of(swing_seat(), t_end, 101), get_method(method), tolerance=tolerance)
+    assert found.outcome.status == "ok"
+    angle, _ = swing(found.times, float(np.arcsin(0.6)))
+    true = np.column_stack([np.sin(angle), -np.cos(angle), np.zeros_like(angle)])
+    assert found.estimate is not None
+    assert (np.abs(found.values - true).max(axis=1) <= found.estimate.errors + 1e-14).all()
 
 
 def test_the_sleigh_turns_its_spin_into_speed() -> None:

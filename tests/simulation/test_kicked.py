@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -16,7 +15,6 @@ from deltaq.simulation import integration, run
 from deltaq.simulation.kernels import compiler, newton
 from deltaq.simulation.kernels.implicit_runge_kutta import integrate_implicit
 from deltaq.simulation.library import get_method
-from deltaq.simulation.problem import Problem
 from deltaq.simulation.service import problem_of
 
 METHODS = ("implicit-midpoint", "variational-midpoint", "symplectic-euler")
@@ -44,19 +42,9 @@ def test_symbols_lead_where_numbers_lead(case: str, method: str, step: float, mo
     np.testing.assert_allclose(found.rates, known.rates, rtol=0.0, atol=1e-11)
 
 
-CASES_OF_SYMBOLS = ["one rod", "two rods", "four-bar, coupled masses", "four-bar by angles"]
-
-
-def evaluations(problem: Problem) -> int:
-    method, flag = get_method("implicit-midpoint"), np.zeros(1, dtype=np.int64)
-    found = run.run(problem, method, np.array([0.0, 0.1]), flag, run.Steps(1e-3))
-    assert found.is_complete
-    return int(found.result.evaluations)
-
-
-@pytest.mark.parametrize("case", CASES_OF_SYMBOLS)
+@pytest.mark.parametrize("case", ["one rod", "two rods", "four-bar, coupled masses", "four-bar by angles"])
 def test_long_runs_need_no_numbers(case: str, monkeypatch: pytest.MonkeyPatch) -> None:
-    """Where symbols hold, the stages are never evaluated by numbers."""
+    """Where symbols hold, the stages are never evaluated by numbers, and as many corrections are made."""
     problem, count, evaluate = CASES[case](0.1), [0], newton.evaluate
 
     def counted(*given: Any) -> None:
@@ -66,27 +54,18 @@ def test_long_runs_need_no_numbers(case: str, monkeypatch: pytest.MonkeyPatch) -
     monkeypatch.setattr(compiler.Interpretation, "takes", lambda *_: True)
     monkeypatch.delitem(integrate_implicit.__dict__, "compiled", raising=False)
     monkeypatch.setattr(newton, "evaluate", counted)
-    compiler.interpreted(lambda: evaluations(problem), 60.0)
+
+    def evaluations() -> int:
+        method, flag = get_method("implicit-midpoint"), np.zeros(1, dtype=np.int64)
+        found = run.run(problem, method, np.array([0.0, 0.1]), flag, run.Steps(1e-3))
+        assert found.is_complete
+        return int(found.result.evaluations)
+
+    by_symbols = compiler.interpreted(evaluations, 60.0)
     assert count == [0]
     monkeypatch.setattr(integration, "kicked_of", lambda *_: None)
-    compiler.interpreted(lambda: evaluations(problem), 60.0)
+    assert abs(compiler.interpreted(evaluations, 60.0) - by_symbols) <= 5
     assert count[0] > 0
-
-
-@pytest.mark.parametrize("case", CASES_OF_SYMBOLS)
-def test_symbols_make_as_many_corrections_as_numbers(case: str, monkeypatch: pytest.MonkeyPatch) -> None:
-    """In the mean: rounding decides whether a correction is the last, by up to 7 of 540 in one run of the four-bar."""
-    problem, source, apart = CASES[case](0.1), np.random.default_rng(3), []
-    by_symbols = integration.kicked_of
-    for _ in range(32):
-        nudges = 1.0 + 1e-14 * source.normal(size=len(problem.parameters))
-        near = replace(problem, parameters=tuple((nudges * problem.parameters).tolist()))
-        made = []
-        for kicked in (by_symbols, lambda *_: None):
-            monkeypatch.setattr(integration, "kicked_of", kicked)
-            made.append(evaluations(near))
-        apart.append(made[1] - made[0])
-    assert abs(np.mean(apart)) <= 2.5, apart
 
 
 @pytest.mark.parametrize("method", METHODS)

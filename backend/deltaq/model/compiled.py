@@ -52,13 +52,13 @@ def compile_expressions(inputs: Sequence[Expr], outputs: Sequence[Expr], effort:
     Raises SceneError if one of them has no real value whatever the inputs.
     """
     try:
-        function = se.Lambdify(list(inputs), [with_roots(outputs)], backend="llvm", cse=True, opt_level=effort)
+        function = se.Lambdify(list(inputs), [_with_roots(outputs)], backend="llvm", cse=True, opt_level=effort)
     except RuntimeError as error:  # a complex or infinite constant, 1/(x − x) or √(−1), say
         raise SceneError(Problem("not-computable", parameters={"detail": str(error)[:80]})) from None
     return Compiled(function, len(inputs), len(outputs))
 
 
-def with_roots(outputs: Sequence[Expr]) -> list[Expr]:
+def _with_roots(outputs: Sequence[Expr]) -> list[Expr]:
     """The same with (√x)³ for x to the power 3/2, and so on: roots and products are instructions, powers a function.
 
     √x is positive, so that its absolute value, which costs nothing, keeps SymEngine from writing a power again.

@@ -12,10 +12,9 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
-import numpy as np
 import symengine as se
 
-from .compiled import Compiled, compile_expressions, with_roots
+from .compiled import Compiled, compile_expressions
 from .constraints import ConstraintEquations
 from .equations import Equations
 from .functions import Expr
@@ -147,20 +146,10 @@ class Solved:
 
 @dataclass(frozen=True)
 class CompiledSolution:
-    """`Solved.motion` and `Solved.projected` as machine code.
-
-    Behind the inputs of both stand `constants`, what follows from the parameters alone and is the same in a whole run;
-    and then, for the latter, A `before` a step.
-    """
+    """`Solved.motion` and `Solved.projected` as machine code; A `before` a step stands behind the latter's inputs."""
 
     motion: Compiled
     projected: Compiled
-    constants: Compiled | None
-
-    def values(self, parameters: Sequence[float]) -> list[float]:
-        """The constants; infinite where a parameter that divides is zero, or so small."""
-        found: list[float] = [] if self.constants is None else self.constants.table(np.array([parameters]))[0].tolist()
-        return found
 
 
 def solved(eqs: Equations) -> Solved | None:
@@ -190,28 +179,10 @@ def compiled_solution(eqs: Equations, effort: int) -> CompiledSolution | None:
     inputs, n, m = eqs.symbols.inputs, len(eqs.forcing), len(eqs.constraints.slips)
     before = [se.Symbol(f"before {k}") for k in range(m * n)]
     rows = tuple(tuple(before[k * n : (k + 1) * n]) for k in range(m))
-    parameters, count = inputs[2 * n + 1 :], len(found.motion)
-    constants, outputs = _apart([*found.motion, *found.projected(rows)], parameters)
-    given = [*inputs, *constants]
     return CompiledSolution(
-        compile_expressions(given, outputs[:count], effort),
-        compile_expressions([*given, *before], outputs[count:], effort),
-        compile_expressions(parameters, list(constants.values())) if constants else None,
+        compile_expressions(inputs, found.motion, effort),
+        compile_expressions([*inputs, *before], found.projected(rows), effort),
     )
-
-
-def _apart(outputs: Sequence[Expr], parameters: Sequence[Expr]) -> tuple[dict[Expr, Expr], list[Expr]]:
-    """Common subexpressions of parameters alone, by the symbols that stand for them in the outputs, and these."""
-    parts, left = se.cse(with_roots(outputs))
-    known, constants, replaced = set(parameters), dict[Expr, Expr](), dict[Expr, Expr]()
-    for symbol, part in parts:
-        if part.free_symbols <= known:
-            known.add(symbol)
-            replaced[symbol] = se.Symbol(f"constant {len(constants)}")
-            constants[replaced[symbol]] = part.subs(replaced).subs(constants)
-        else:
-            replaced[symbol] = part.subs(replaced)
-    return constants, [each.subs(replaced) for each in left]
 
 
 def _products(matrix: Sequence[Vector], m: int) -> float:

@@ -36,9 +36,7 @@ def block(problem: Problem, *, is_long: bool = True, with_phase: bool = False, t
     solution = model.solution(is_long=is_long) if problem.rank == m else None
     phase = model.phase.function if with_phase else None
     outputs = 0 if phase is None else phase.outputs
-    constants = [] if solution is None else solution.values(problem.parameters)
-    inputs = motion.inputs + len(constants)
-    size = kernel.block_size(n, m, inputs, motion.outputs, outputs)
+    size = kernel.block_size(n, m, motion.inputs, motion.outputs, outputs)
     memory = np.zeros(size)
     head = memory.view(np.int64)
     head[: kernel.PHASE_OUTPUTS + 1] = (
@@ -48,7 +46,7 @@ def block(problem: Problem, *, is_long: bool = True, with_phase: bool = False, t
         model.layout.holonomic,
         model.layout.is_powered,
         problem.rank,
-        inputs,
+        motion.inputs,
         motion.outputs,
         outputs,
     )
@@ -64,16 +62,9 @@ def block(problem: Problem, *, is_long: bool = True, with_phase: bool = False, t
     head[kernel.TELLS_END] = tells_end
     first = kernel.HEAD + 2 * m
     head[kernel.HEAD : kernel.HEAD + m] = np.arange(m)
-    memory[first + 2 * n + 1 : first + inputs] = [*problem.parameters, *constants]
+    memory[first + 2 * n + 1 : first + motion.inputs] = problem.parameters
     memory[-1] = 1.0  # the conditioning
     return memory
-
-
-def inputs_in(memory: Floats) -> Floats:
-    """A copy of the inputs, shape (inputs,), with parameters and constants; `memory` has shape (size,)."""
-    head = _integers(memory)
-    first = kernel.HEAD + 2 * int(head[kernel.COUNT])
-    return memory[first : first + int(head[kernel.INPUTS])].copy()
 
 
 def solved_in(memory: Floats) -> tuple[int, int] | None:

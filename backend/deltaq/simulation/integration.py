@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from ..model.pushes import Places
 from ..model.recurrences import nudged
-from .constraints import block, inputs_in, solved_in
+from .constraints import block, solved_in
 from .kernels.constraints import constrained_motion, constrained_phase
 from .kernels.explicit_runge_kutta import integrate
 from .kernels.implicit_runge_kutta import integrate_implicit
@@ -200,13 +200,7 @@ def motion_of(problem: Problem, *, is_long: bool = True, tells_end: bool = True)
     general, place = constrained_motion.address, memory.ctypes.data
     address, data = solved_in(memory) or (general, place)
     return found._replace(
-        address=address,
-        data=data,
-        inputs=inputs_in(memory),
-        general=general,
-        finish=constrained_finish.address,
-        block=place,
-        memory=memory,
+        address=address, data=data, general=general, finish=constrained_finish.address, block=place, memory=memory
     )
 
 
