@@ -30,7 +30,7 @@ SHARED = "tests of shared derivations"
 LONG = 3.0  # seconds: a test that takes as long has its own name in the record, and its turn
 NAMED = 1.0  # seconds: a file whose other tests take less is not worth naming
 # Seconds of long tests in one run, of four workers on two cores; those marked `always` come on top.
-BUDGET = 350.0
+BUDGET = 220.0
 # Whatever stands here moves scenes by compiled kernels, or has a service do so.
 MOVING = (
     "tests/api/",

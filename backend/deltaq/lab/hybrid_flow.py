@@ -57,7 +57,7 @@ class HybridFlow(Flow):
     allowance: Allowance
 
     def image(self, state: Floats, span: float, value: float, parts: int = 1, longer: float = 0.0) -> Image | None:
-        """As of any flow, as long as the allowance lasts."""
+        """As of any flow, from a state of shape (2n,), as long as the allowance lasts."""
         if self.allowance.left <= 0:
             return None
         before = self.allowance.passed
@@ -72,7 +72,10 @@ class HybridFlow(Flow):
         return np.asarray((gaps >= -TOUCHING * size).all(axis=1))
 
     def traced(self, values: Floats, states: Floats, times: Floats, tolerance: float = TOLERANCE) -> Traced:
-        """As of any flow; what begins behind a contact goes nowhere."""
+        """As of any flow; what begins behind a contact goes nowhere.
+
+        `values` has shape (motions,), `states` (motions, 2n), `times` (times,).
+        """
         width, count = states.shape[1], len(states)
         found = Traced(np.full((count, len(times), width), np.nan), np.full(count, EVENT), np.zeros(count, dtype=int))
         for index, (value, state) in enumerate(zip(values.tolist(), states, strict=True)):

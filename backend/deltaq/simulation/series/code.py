@@ -23,7 +23,9 @@ from ...model.recurrences import FUNCTIONS
 
 LIBRARY = "deltaq.math."  # before the names of functions of the C library
 MORE = ("pow", "atan2")  # of these
-EFFORT = 2  # of LLVM; 0 takes a third of the time to compile and twice as long to run
+EFFORT = (
+    1  # of LLVM; with 0 compiling takes a third of the time and runs twice as long, with 2 a tenth more and as long
+)
 _LOCK = RLock()
 _CALLED = re.compile(rf'@"{re.escape(LIBRARY)}([^"]+)"')
 _NUMBERS = count()  # of libraries: each has a name of its own
@@ -39,6 +41,7 @@ class Code:
     declared: set[str] = field(default_factory=set)
     circular: dict[str, tuple[str, str]] = field(default_factory=dict)  # sine and cosine of a number
     prefix: str = "v"  # of names, where two write the same function
+    is_rare: bool = False  # run so seldom that it is written as fast as can be, with an effort of 0
     _count: int = 0
 
     @cached_property
@@ -254,6 +257,10 @@ def host() -> Host:
     return Host(llvm.get_host_cpu_name(), features.flatten(), has_fma, wide, addresses)
 
 
+ATTRIBUTES = (
+    'attributes #0 = { nounwind "no-builtins" }',
+    'attributes #1 = { nounwind noinline optnone "no-builtins" }',
+)
 ARGUMENTS = "ptr %out, ptr %given, ptr noalias %work, ptr %program"  # of all functions that kernels call
 
 
@@ -282,8 +289,8 @@ def compiled(
     """
     lines = [*sorted(set[str]().union(*(code.declared for code in functions.values()))), *inner]
     for name, code in functions.items():
-        lines += [f"define {returned} @{name}({given}) #0 {{", *code.lines, "}"]
-    text = "\n".join([*lines, 'attributes #0 = { nounwind "no-builtins" }', ""])
+        lines += [f"define {returned} @{name}({given}) #{int(code.is_rare)} {{", *code.lines, "}"]
+    text = "\n".join([*lines, *ATTRIBUTES, ""])
     with _LOCK:
         module = llvm.parse_assembly(text)
         module.triple = llvm.get_default_triple()

@@ -76,7 +76,7 @@ def jet_of(recurrences: Recurrences, lanes: int = 1) -> Jet:
     """The code of some recurrences, for one motion or for so many side by side."""
     terms, shape = terms_of(recurrences), Shape.of(recurrences, lanes)
     if lanes == 1 and len(terms) > MANY and not recurrences.conditions:
-        return _InParts(recurrences, shape, Blocks(terms, width_of_sums()), Code(1)).jet()
+        return _InParts(recurrences, shape, Blocks(terms, width_of_sums()), Code(1, is_rare=True)).jet()
     sums: Sums = OfOperations(terms, width_of_sums()) if lanes == 1 else OfMotions(terms, lanes)
     writer = _Writer(recurrences, shape, sums, Code(lanes))
     writer.write()
