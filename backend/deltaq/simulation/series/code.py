@@ -23,9 +23,8 @@ from ...model.recurrences import FUNCTIONS
 
 LIBRARY = "deltaq.math."  # before the names of functions of the C library
 MORE = ("pow", "atan2")  # of these
-EFFORT = (
-    1  # of LLVM; with 0 compiling takes a third of the time and runs twice as long, with 2 a tenth more and as long
-)
+# Of LLVM. With 0 compiling takes a third of the time and runs twice as long; with 2 a tenth more, and runs as long.
+EFFORT = 1
 _LOCK = RLock()
 _CALLED = re.compile(rf'@"{re.escape(LIBRARY)}([^"]+)"')
 _NUMBERS = count()  # of libraries: each has a name of its own
