@@ -27,6 +27,7 @@ Request = tuple[str, Json]
 
 SCENES = ("pendulum", "elastic-pendulum", "double-pendulum", "base-pendulum", "quarter-car", "two-mass-oscillator")
 CONSTRAINED = ("cartesian-pendulum", "four-bar", "slider-crank", "chaplygin-sleigh", "catching-pendulum")
+JUMPING = ("bouncing-ball", "stick-slip", "string-pendulum")
 MAGNITUDES = (5e-324, 2.3e-308, 1e-200, 1e-155, 1e-16, 1e16, 1e77, 1e153, 1e154, 1e155, 1e200, 1e300, 1.7e308)
 WHOLE = (0, -1, 2**31, 2**53 + 1, 2**63, 2**64, -(2**63) - 1, 10**300, 10**308, 10**309, 10**399)
 METHODS = ("auto", "rk4", "explicit-euler", "dop853", "radau-5", "stormer-verlet", "gauss-4", "newmark")
@@ -100,7 +101,7 @@ class Draw(random.Random):
 
     def request(self) -> Request:
         """One of all."""
-        scene = self.choice((*SCENES, *CONSTRAINED))
+        scene = self.choice((*SCENES, *CONSTRAINED, *JUMPING))
         kinds = (self.simulation, self.simulation, self.ensemble, self.derivation, self.derivation, self.export)
         return self.choice((*kinds, self.homework, self.variation, self.experiment, self.scene_or_expression))(scene)
 

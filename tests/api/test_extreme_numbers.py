@@ -98,6 +98,17 @@ async def test_numbers_that_were_too_much(quick: httpx.AsyncClient, path: str, b
             id="rates of a guide",
         ),
         pytest.param("simulations", {"scene": "pendulum", "t_end": 1e-200}, 200, id="the square of a span"),
+        pytest.param(
+            "simulations",
+            {
+                "scene": "bouncing-ball",
+                "t_end": 1.0,
+                "parameters": {"a": 1e300},
+                "initial": {"z": {"value": 1e-300, "rate": 0.0}},
+            },
+            200,
+            id="the square of the rate of a rebound",
+        ),
         pytest.param("simulations", {"scene": "pendulum", "t_end": 5e-324}, 422, id="no part of a span"),
         pytest.param("derivations", {"scene": "base-pendulum", "parameters": {"m": 1e-155}}, 200, id="a root of -0"),
         pytest.param(

@@ -124,7 +124,7 @@ class Departure:
             return False
         times, means = self.times[late], self.means[late]
         rate, total = _slope(times, means), float(np.var(means))
-        explained = rate**2 * float(np.var(times)) / total if total > 0.0 else 0.0
+        explained = rate * rate * float(np.var(times)) / total if total > 0.0 else 0.0
         halves = [_slope(*half) for half in zip(np.array_split(times, 2), np.array_split(means, 2), strict=True)]
         is_one = all(abs(half - rate) < UNLIKE * abs(rate) for half in halves)
         return is_one and explained > CLEAR and abs(rate) * float(np.ptp(times)) > DRIFTS * self.largest

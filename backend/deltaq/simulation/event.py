@@ -40,11 +40,11 @@ class Event:
 
     def may_not_be(self, doubt: float) -> bool:
         """Whether the event is uncertain: its value turns back before it is below zero by its error `doubt`."""
-        return self.bend > 0.0 and 0.5 * self.fall**2 <= doubt * self.bend
+        return self.bend > 0.0 and 0.5 * self.fall * self.fall <= doubt * self.bend
 
     def late_by(self, doubt: float) -> float:
         """The error of the time in seconds if the value is wrong by `doubt`: s in |fall| s − |bend| s²/2 = doubt."""
-        root = math.sqrt(max(self.fall**2 - 2.0 * abs(self.bend) * doubt, 0.0))
+        root = math.sqrt(max(self.fall * self.fall - 2.0 * abs(self.bend) * doubt, 0.0))
         return 2.0 * doubt / max(abs(self.fall) + root, sys.float_info.min)
 
 

@@ -16,7 +16,7 @@ from .constraints import Reactions
 from .event import Event
 from .integration import Flag
 from .kernels.loop import Result
-from .kernels.motion import FINE, MANY_EVENTS, STEP_LIMIT, UNSETTLED
+from .kernels.motion import FINE, MANY_EVENTS, NOT_FINITE, STEP_LIMIT, UNSETTLED
 from .method import Method
 from .mode_state import ModeState
 from .outcome import CHATTERS, NO_DIRECTION, OUT_OF_REACH, SLIDES, WITHIN_STEPS
@@ -153,6 +153,8 @@ def _behind(current: ModeState, event: Event, record: _Record, span: float) -> M
         return _End(NO_DIRECTION)
     except SlidingError as sliding:
         return _End(SLIDES, current.modes.name_of(sliding.row))
+    if not behind.is_finite:
+        return _End(NOT_FINITE)
     if record.is_crowded(span):
         return _End(CHATTERS, current.modes.name_of_watched(event.index))
     return _too_often(record) or behind
@@ -225,9 +227,9 @@ def _next(current: ModeState, event: Event, record: _Record) -> ModeState:
 def _shaken(current: ModeState, number: int, pattern: int) -> ModeState:
     """The state with its rates moved by what rounding of them and of the time would do, up and down in no simple order.
 
-    What is held stays as it is, and constraints are kept.
+    What is held stays as it is, and constraints are kept. Where forces exceed all numbers the run tells so itself.
     """
-    if pattern == 0 or any(current.mode.flags):
+    if pattern == 0 or any(current.mode.flags) or not np.isfinite(current.accelerations).all():
         return current
     size = np.abs(current.v) + current.time * np.abs(current.accelerations)
     change = SHAKE * size * np.cos(2.0 * np.arange(len(size)) + pattern * (number + 2.0))

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, replace
 from functools import cached_property
 
@@ -66,6 +67,11 @@ class ModeState:
         own = self.problem.parameters[: len(self.problem.parameters) - len(self.mode.parameters)]
         return np.array([[*self.q, *self.v, self.time, *own, *self.mode.parameters]])
 
+    @property
+    def is_finite(self) -> bool:
+        """Whether places, rates and time are numbers."""
+        return bool(np.isfinite(self.q).all() and np.isfinite(self.v).all() and math.isfinite(self.time))
+
     @cached_property
     def facts(self) -> Facts:
         """The rows with the flags of the mode."""
@@ -91,9 +97,11 @@ class ModeState:
     def mass(self) -> Floats:
         """M, shape (n, n)."""
         n = len(self.q)
-        found, places = np.zeros((n, n)), np.tril_indices(n)
-        found[places] = self._packed[: len(places[0])]
-        return found + np.tril(found, -1).T
+        found = np.zeros((n, n))
+        for row in range(n):
+            first = row * (row + 1) // 2
+            found[row, : row + 1] = found[: row + 1, row] = self._packed[first : first + row + 1]
+        return found
 
     @cached_property
     def kept(self) -> tuple[Floats, Floats]:

@@ -144,7 +144,9 @@ def _lies_in(current: ModeState, row: int) -> bool:
     behind = on_side(current, row, -current.mode.slips[row])
     rate, pull = float(current.facts.w[row]), -float(np.sign(current.facts.w[row])) * rate_of(behind, row)
     slope = float(np.abs(current.facts.a[row]).max())
-    return bool(draws(current, row) and pull > 0.0 and rate**2 / (2.0 * pull) <= OFF_KINK * slope * size_of(current.q))
+    return bool(
+        draws(current, row) and pull > 0.0 and rate * rate / (2.0 * pull) <= OFF_KINK * slope * size_of(current.q)
+    )
 
 
 def _without_rate(current: ModeState, row: int) -> ModeState:
@@ -207,7 +209,7 @@ def _at_zero(current: ModeState, value: float, rate: float, bend: float) -> Mode
     What is left of its fall, v(t − s) = v − v̇ s + v̈ s²/2 = 0, is not fallen once more with each rebound: that would
     feed small ones for ever.
     """
-    square = rate**2 - 2.0 * bend * value
+    square = rate * rate - 2.0 * bend * value
     late = 2.0 * value / (rate - math.sqrt(square)) if rate < 0.0 and square >= 0.0 else 0.0
     if not 0.0 < late < LATE:
         return current
@@ -249,7 +251,7 @@ def _rests(current: ModeState, row: int, contact: int) -> bool:
     pull = -float(facts.a[row] @ current.accelerations + facts.bias[row])
     if not pull > 0.0:
         return False
-    height, lost, size = rebound**2 / (2.0 * pull) / current.scale(contact), 1.0 - e**2, size_of(current.q)
+    height, lost, size = rebound * rebound / (2.0 * pull) / current.scale(contact), 1.0 - e * e, size_of(current.q)
     rounding = TICKS * math.ulp(current.time) * abs(float(facts.w[row] - facts.a[row] @ current.v))
     unknown = rounding / current.scale(contact)  # where the contact is that moves with the time
     return height <= LOWEST * size + unknown and height * lost <= HEIGHT * size + unknown
