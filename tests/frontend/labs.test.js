@@ -59,7 +59,7 @@ test("a problem in the stream, a refusal and a stream that breaks off are failur
   assert.equal((await failing(answering("event: part\ndata: {}\n\n"))).status, 0);
 });
 
-const ASKED = { ...NOTHING, lab: "stability-map", scene: "kapitza", duration: 5, peers: true, steps: 1000, plane: "phi", direction: "both", horizontal: "", vertical: "dot(phi)^2", energy: -1.5, grid: 4, crossings: 80, skip: 7, uncertain: "all", spread: 0.02, tolerances: "phi = 0.1; dot(phi) = 0,25, l = x", distribution: "uniform", runs: 50, share: 10, x_from: -1, x_to: 2, y_from: null, y_to: 0, "basin-grid": 20, pairs: 9, basin_x: "phi", basin_y: "dot(phi)", at: /** @type {const} */ ("rest"), stiffness: "k", x: { parameter: "omega", from: -10, to: 120.5 }, y: { parameter: "y0", from: 0.01, to: 0.2 }, sweep: { parameter: "y0", from: 0.01, to: 0.2 }, period: "", passing: "both", settle: 7, shown: 48, folds: 8, orbits: true, flips: false, allowed: 0.5, parameters: { l: 0.4 }, initial: { phi: { value: -1.5, rate: 2 } } };
+const ASKED = { ...NOTHING, lab: "stability-map", scene: "kapitza", duration: 5, peers: true, steps: 1000, plane: "phi", direction: "both", horizontal: "", vertical: "dot(phi)^2", energy: -1.5, grid: 4, crossings: 80, skip: 7, uncertain: "all", spread: 0.02, tolerances: "phi = 0.1; dot(phi) = 0,25, l = x", distribution: "uniform", runs: 50, share: 10, x_from: -1, x_to: 2, y_from: null, y_to: 0, "basin-grid": 20, pairs: 9, basin_x: "phi", basin_y: "dot(phi)", at: /** @type {const} */ ("rest"), stiffness: "k", x: { parameter: "omega", from: -10, to: 120.5 }, y: { parameter: "y0", from: 0.01, to: 0.2 }, sweep: { parameter: "y0", from: 0.01, to: 0.2, count: 24 }, period: "", passing: "both", settle: 7, shown: 48, folds: 8, orbits: true, flips: false, allowed: 0.5, parameters: { l: 0.4 }, initial: { phi: { value: -1.5, rate: 2 } } };
 
 test("every question has an address, and the usual one a short one", () => {
   assert.deepEqual(readQuestion(`?${writeQuestion(ASKED)}`), ASKED);
@@ -82,6 +82,17 @@ test("each lab asks for what it knows", () => {
   assert.equal(/** @type {any} */ (requestOf({ ...ASKED, lab: "fidelity" }, "kapitza", "en")).tolerance, 0.005);
   const body = /** @type {any} */ (requestOf({ ...ASKED, lab: "uncertainty" }, "kapitza", "en"));
   assert.deepEqual([body.tolerances, body.share], [{ phi: 0.1, "dot(phi)": 0.25, l: NaN }, 0.1]);
+});
+
+test("a sweep begins beside a drive at rest, with fewer values where motions jump or stick", () => {
+  const parameters = [{ name: "a", value: 1, min: 0.5, max: 2 }, { name: "omega", value: 3, min: 0, max: 40 }];
+  const usual = (/** @type {object} */ scene) => answered({ ...NOTHING, lab: "bifurcation" }, /** @type {any} */ ({ parameters, ...scene })).sweep;
+  const range = { parameter: "omega", from: 2, to: 40 };
+  assert.deepEqual(usual({}), range);
+  assert.deepEqual(usual({ events: [{ name: "hit", value: "z", then: "bounce" }] }), { ...range, count: 24 });
+  assert.deepEqual(usual({ loads: [{ kind: "friction", name: "rubbing" }] }), { ...range, count: 24 });
+  assert.deepEqual(usual({ events: [{ name: "end", value: "z" }], loads: [{ kind: "gravity", name: "weight" }] }), range);
+  assert.deepEqual(usual({ parameters: parameters.slice(0, 1) }), { parameter: "a", from: 0.5, to: 2 });
 });
 
 test("a place on a map is two parameters, or two angles at rest", () => {

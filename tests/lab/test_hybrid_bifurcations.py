@@ -99,9 +99,21 @@ REFUSED: dict[str, tuple[dict[str, Any], tuple[str, str]]] = {
         {"initial": {"z": {"value": -5.0}}},
         ("event-at-start", "/scene/events/0/value"),
     ),
-    "too many impacts": (
+    "too many impacts with any number of values": (
         {"skip": 5000, "crossings": 1000, "t_end": 9000.0},
-        ("bifurcation-many-events", "/sweep/count"),
+        ("bifurcation-many-events-each", "/skip"),
+    ),
+    "a table that stands still at the first value": (
+        {"sweep": {"parameter": "omega", "from": 0.0, "to": 6.0, "count": 8}},
+        ("bifurcation-drive-at-rest", "/sweep/from"),
+    ),
+    "a table that stands still at the last value": (
+        {"sweep": {"parameter": "omega", "from": -6.0, "to": 0.0, "count": 8}},
+        ("bifurcation-drive-at-rest", "/sweep/to"),
+    ),
+    "a table that stands still in between": (
+        {"sweep": {"parameter": "omega", "from": -4.0, "to": 4.0, "count": 9}},
+        ("bifurcation-drive-at-rest", "/sweep"),
     ),
 }
 
@@ -114,9 +126,19 @@ def test_what_cannot_be_followed_is_told_at_its_field(case: str) -> None:
     assert [(one.code, one.pointer) for one in caught.value.problems] == [(code, pointer)]
 
 
-def test_how_many_values_are_possible_is_told() -> None:
-    """One impact in each period, so that both sweeps follow 2 · 8 · 6000 of them."""
+@pytest.mark.parametrize(
+    ("sweep", "skip", "code", "place", "told"),
+    [
+        # one impact in each period, so that both sweeps follow two for each value and period
+        ({"count": 8}, 5000, "bifurcation-many-events-each", "/skip", {"events": 96_000.0, "periods": 3750}),
+        ({"count": 40}, 1000, "bifurcation-many-events", "/sweep/count", {"events": 160_000.0, "count": 15}),
+    ],
+)
+def test_how_many_events_are_possible_is_told(
+    sweep: dict[str, Any], skip: int, code: str, place: str, told: dict[str, Any]
+) -> None:
+    asked = ball(0.3, 0.45, 0.5, skip=skip, crossings=1000, t_end=9000.0)
+    asked["sweep"] |= sweep
     with pytest.raises(RequestError) as caught:
-        ask(**ball(0.3, 0.45, 0.5, skip=5000, crossings=1000, t_end=9000.0))
-    told = {"each": 1.0, "events": 96_000.0, "most": 60_000, "count": 5}
-    assert caught.value.problems == (Problem("bifurcation-many-events", "/sweep/count", parameters=told),)
+        ask(**asked)
+    assert caught.value.problems == (Problem(code, place, parameters={"each": 1.0, "most": 60_000, **told}),)

@@ -16,6 +16,8 @@ from ..simulation.integration import Flag
 from ..simulation.march import Integers, Truths
 from ..simulation.problem import Floats, Problem
 from ..simulation.run import Steps
+from ..simulation.section import Surface
+from .interpolation import crossings
 
 TOLERANCE, FINE = 1e-12, 1e-16  # local: of a sweep, and of derivatives
 NUDGE, EARLY = 2e-4, 1e-3  # of the scales and of the time: what differences leave out is as small as rounding
@@ -34,6 +36,18 @@ class Traced:
     def is_fine(self) -> bool:
         """Whether all came to the end."""
         return not self.outcomes.any()
+
+
+@dataclass(frozen=True)
+class Passed:
+    """A motion where it is looked at: `rows` (q, q̇, t), shape (passages, 2n + 1), and its `end`, shape (2n,).
+
+    `status` is the outcome of the kernel, 0 where it came to its end.
+    """
+
+    rows: Floats
+    end: Floats
+    status: int
 
 
 @dataclass(frozen=True)
@@ -75,6 +89,19 @@ class Flow:
         del value  # nothing is in the way of a motion that one set of equations describes
         return np.asarray(np.isfinite(states).all(axis=1))
 
+    @property
+    def is_exhausted(self) -> bool:
+        """Whether derivatives were given up, for they would have taken too long."""
+        return False
+
+    def renew(self) -> None:
+        """For the next branch of periodic motions: its derivatives may take their time anew."""
+
+    def events(self, value: float, state: Floats, span: float) -> int:
+        """Behind how many events the motion from a state, shape (2n,), goes on in a span: smooth ones meet none."""
+        del value, state, span
+        return 0
+
     def coarser(self, factor: float) -> Flow:
         """The same with neighbours that much farther away: what differs is what differences are wrong by."""
         return replace(self, nudges=factor * self.nudges)
@@ -90,6 +117,14 @@ class Flow:
             Ensemble(self.problem, states, parameters), times, Steps(self.largest, tolerance), self.cancelled
         )
         return Traced(members.samples[:, :, : 2 * self.problem.degrees], members.outcomes, members.steps)
+
+    def passed(self, value: float, state: Floats, times: Floats, surface: Surface) -> Passed:
+        """Where the motion from a state, shape (2n,), passes a plane, looked at between `times`, shape (times,)."""
+        found = self.traced(np.array([value]), state[None, :], times)
+        states = found.states[0]
+        good = int(np.isfinite(states).all(axis=1).cumprod().sum())
+        rows = crossings(self.at(value), np.column_stack([states, times])[:good], surface)
+        return Passed(rows, states[-1], int(found.outcomes[0]))
 
     def image(self, state: Floats, span: float, value: float, parts: int = 1, longer: float = 0.0) -> Image | None:
         """Where a state, shape (2n,), is after a span, with all derivatives; None where motions end before.

@@ -8,7 +8,6 @@ Source: di Bernardo, Budd, Champneys, Kowalczyk, Piecewise-smooth Dynamical Syst
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -21,9 +20,9 @@ from ..simulation.library import get_method
 from ..simulation.march import Truths
 from ..simulation.problem import Floats
 from ..simulation.run import Run, Steps
-from .flow import TOLERANCE, Flow, Image, Traced
+from ..simulation.section import Surface
+from .flow import TOLERANCE, Flow, Image, Passed, Traced
 from .hybrid_orbits import TOUCHING, crossings_of
-from .passages import SAMPLES, Passed, View
 
 
 @dataclass
@@ -88,6 +87,22 @@ class HybridFlow(Flow):
             found.outcomes[index], found.steps[index] = run.result.outcome, run.result.steps
         return found
 
+    @property
+    def is_exhausted(self) -> bool:
+        return self.allowance.is_exhausted
+
+    def renew(self) -> None:
+        self.allowance.renew()
+
+    def passed(self, value: float, state: Floats, times: Floats, surface: Surface) -> Passed:
+        """As of any flow; where the plane is the gap of a contact, each of its impacts is a passage.
+
+        `state` has shape (2n,), `times` shape (times,).
+        """
+        run = self.run(value, state, times)
+        end = run.states[-1, : len(state)] if len(run.states) else state
+        return Passed(crossings_of(run, surface), end, run.result.outcome)
+
     def events(self, value: float, state: Floats, span: float) -> int:
         """Behind how many events the motion from a state, shape (2n,), goes on in a span, as far as it comes."""
         return len(self.run(value, state, np.array([0.0, span])).transitions)
@@ -104,19 +119,3 @@ class HybridFlow(Flow):
         )
         steps = Steps(self.largest, tolerance, is_recorded=True)
         return run_on(own, self.modes, get_method("taylor"), times, self.cancelled, steps)
-
-
-@dataclass(frozen=True)
-class HybridView(View):
-    """What is seen of such motions: where the plane is the gap of a contact, each of its impacts."""
-
-    flow: HybridFlow
-
-    def passed(self, value: float, state: Floats, unit: float, count: int, density: float = 0.0) -> Passed:
-        """The motion from a state, shape (2n,), over so many units of time (a period), where it is looked at."""
-        if self.plane is None:
-            return super().passed(value, state, unit, count, density)
-        times = np.linspace(0.0, unit * count, 1 + math.ceil(count * max(SAMPLES, unit * density)))
-        run = self.flow.run(value, state, times)
-        end = run.states[-1, : len(state)] if len(run.states) else state
-        return Passed(crossings_of(run, self.surface(value)), end, run.result.outcome)

@@ -17,7 +17,8 @@ from ..simulation.outcome import outcome_of
 from ..simulation.problem import Floats
 from ..vocabulary import RungStatus
 from .closing import Closing
-from .passages import PER_STEP, Passed, View
+from .flow import Passed
+from .passages import PER_STEP, View
 
 PUSH = 1e-7  # of the scales: what makes a motion leave an unstable one, at each value
 RETURNED = 1e-5  # of the scales: a motion that comes back so near has closed

@@ -11,6 +11,7 @@ import numpy as np
 from ..simulation.derivatives import accelerations
 from ..simulation.march import Polynomials
 from ..simulation.problem import Floats, Problem
+from ..simulation.section import Brackets, Surface, refined
 
 
 def quintics(problem: Problem, begins: Floats, ends: Floats) -> Polynomials:
@@ -28,3 +29,20 @@ def quintics(problem: Problem, begins: Floats, ends: Floats) -> Polynomials:
     rates = np.stack([v, a, 3.0 * third, 4.0 * fourth, 5.0 * fifth, np.zeros_like(v)], axis=1) / h[:, None]
     coefficients, old = np.concatenate([positions, rates], axis=2), begins[:, : 2 * n]
     return Polynomials(coefficients, old, np.zeros_like(old), begins[:, -1], h[:, 0], n)
+
+
+def crossings(problem: Problem, rows: Floats, surface: Surface) -> Floats:
+    """Where a motion through rows (q, q̇, t), shape (samples, 2n + 1), crosses a surface, as shape (crossings, 2n + 1).
+
+    Between samples it is the quintic, and the root is sought on that.
+    """
+    found = surface.values(rows)[:, 0]
+    shift = surface.shift(0.5 * (found[:-1] + found[1:]))
+    left, right = found[:-1] - shift, found[1:] - shift
+    (where,) = np.nonzero(surface.is_crossed(left, right) & np.isfinite(left + right))
+    if not len(where):
+        return rows[:0]
+    series = quintics(problem, rows[where], rows[where + 1])
+    ends = np.zeros(len(where)), np.ones(len(where))
+    brackets = Brackets(where, series, *ends, left[where], right[where], shift[where])
+    return refined(brackets, surface).rows

@@ -16,24 +16,11 @@ from ..language.expression import Expression
 from ..model.compiled import Compiled
 from ..model.observables import Observable, Observables
 from ..simulation.problem import Floats
-from ..simulation.section import Brackets, Surface, refined
-from .flow import Flow
-from .interpolation import quintics
+from ..simulation.section import Surface
+from .flow import Flow, Passed
 
 SAMPLES = 96  # in a period, at least
 PER_STEP = 12  # samples in a step of the motion
-
-
-@dataclass(frozen=True)
-class Passed:
-    """A motion where it is looked at: `rows` (q, q̇, t), shape (passages, 2n + 1), and its `end`, shape (2n,).
-
-    `status` is the outcome of the kernel, 0 where it came to its end.
-    """
-
-    rows: Floats
-    end: Floats
-    status: int
 
 
 @dataclass(frozen=True)
@@ -86,26 +73,8 @@ class View:
             rows = np.column_stack([found.states[0], times])
             rows = rows[np.isfinite(rows).all(axis=1)]
             return Passed(rows[:-1], found.states[0, -1], int(found.outcomes[0]))
-        samples = math.ceil(count * max(SAMPLES, unit * density))
-        times = np.linspace(0.0, unit * count, samples + 1)
-        found = self.flow.traced(np.array([value]), state[None, :], times)
-        states = found.states[0]
-        good = int(np.isfinite(states).all(axis=1).cumprod().sum())
-        rows = self._crossings(value, np.column_stack([states, times])[:good])
-        return Passed(rows, states[-1], int(found.outcomes[0]))
-
-    def _crossings(self, value: float, rows: Floats) -> Floats:
-        surface = self.surface(value)
-        found = surface.values(rows)[:, 0]
-        shift = surface.shift(0.5 * (found[:-1] + found[1:]))
-        left, right = found[:-1] - shift, found[1:] - shift
-        (where,) = np.nonzero(surface.is_crossed(left, right) & np.isfinite(left + right))
-        if not len(where):
-            return rows[:0]
-        series = quintics(self.flow.at(value), rows[where], rows[where + 1])
-        ends = np.zeros(len(where)), np.ones(len(where))
-        brackets = Brackets(where, series, *ends, left[where], right[where], shift[where])
-        return refined(brackets, surface).rows
+        times = np.linspace(0.0, unit * count, 1 + math.ceil(count * max(SAMPLES, unit * density)))
+        return self.flow.passed(value, state, times, self.surface(value))
 
 
 def _at(function: Compiled, value: float) -> Callable[[Floats], Floats]:

@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..contract.experiments.bifurcation import BifurcationRequest
+from ..contract.experiments.stability_map import FEWEST_VALUES
 from ..errors import InputError, RequestError, SceneError
 from ..errors import Problem as Mistake
 from ..language.expression import Expression
@@ -28,7 +29,7 @@ from ..simulation.problem import Floats, Problem
 from ..simulation.service import require_no_event
 from .closing import Closing
 from .flow import NUDGE, Flow
-from .hybrid_flow import Allowance, HybridFlow, HybridView
+from .hybrid_flow import Allowance, HybridFlow
 from .hysteresis import Settled, Sweep
 from .passages import PER_STEP, View
 from .period import clocks, common_period
@@ -59,18 +60,9 @@ class Prepared:
     plane: str
     sweep: Sweep
 
-    @property
-    def allowance(self) -> Allowance:
-        """Behind how many events periodic motions may go on; there is none to be kept where motions are smooth."""
-        flow = self.sweep.view.flow
-        return flow.allowance if isinstance(flow, HybridFlow) else Allowance()
-
     def events(self, one: Settled) -> int:
         """Behind how many events a motion that repeats goes on until it does."""
-        flow = self.sweep.view.flow
-        if one.start is None or not isinstance(flow, HybridFlow):
-            return 0
-        return flow.events(one.value, one.start, one.span)
+        return 0 if one.start is None else self.sweep.view.flow.events(one.value, one.start, one.span)
 
 
 def prepared(request: BifurcationRequest) -> Prepared:
@@ -97,7 +89,7 @@ def prepared(request: BifurcationRequest) -> Prepared:
     scales = np.append(_scales(problem, path), float(np.ptp(values)))
     plane = _plane(request, subject, is_driven=drive is not None)
     axis = parsed(request.vertical.strip() or subject.scene.free[0].name, subject.scene, "/vertical")
-    view = _view(replace(rough, nudges=NUDGE * scales), observables, axis, plane, SIGNS[request.direction])
+    view = View(replace(rough, nudges=NUDGE * scales), observables, axis, plane, SIGNS[request.direction])
     _require_function(view)
     if not observables.depends_at_impacts(name):
         _require_influence(rough, values, _around(path, scales[:-1]), drive)
@@ -106,8 +98,7 @@ def prepared(request: BifurcationRequest) -> Prepared:
         own = _started(view, values, own, request.t_end)
         view = replace(view, flow=replace(view.flow, largest=PART * spacing(float(values[0]))))
     _require_time(request, [spacing(value) for value in (float(values[0]), float(values[-1]))])
-    if isinstance(view.flow, HybridFlow):
-        _require_few_events(request, view.flow, values, own, spacing)
+    _require_few_events(request, view.flow, values, own, spacing)
     surface = view.surface if plane is not None and drive is None else None
     whole = scales if drive else np.concatenate([scales[:-1], [spacing(float(values[0]))], scales[-1:]])
     closing = Closing(view.flow, drive, surface, 1, whole, _turns(problem, _around(path, scales[:-1])))
@@ -121,12 +112,6 @@ def _flow(problem: Problem, place: int, largest: float, modes: Modes | None) -> 
     if modes is None:
         return Flow(problem, place, largest, cancelled, nudges)
     return HybridFlow(problem, place, largest, cancelled, nudges, modes, Allowance())
-
-
-def _view(flow: Flow, observables: Observables, axis: Expression, plane: Expression | None, direction: int) -> View:
-    if isinstance(flow, HybridFlow):
-        return HybridView(flow, observables, axis, plane, direction)
-    return View(flow, observables, axis, plane, direction)
 
 
 def _require_values(subject: Subject, request: BifurcationRequest) -> None:
@@ -157,13 +142,22 @@ def _drive(request: BifurcationRequest, subject: Subject, values: Floats) -> Cal
         def asked(value: float) -> float:
             return common_period(arguments, known | {name: value})
 
-    try:
-        found = [asked(float(value)) for value in values]
-    except SceneError:
-        raise RequestError(Mistake("bifurcation-no-period", "/period")) from None
+    found = [_period_at(asked, request, float(value)) for value in values]
     if not all(math.isfinite(one) and one > 0.0 for one in found):
         raise RequestError(Mistake("bifurcation-period", "/period", parameters={"expression": given[:80]}))
     return asked
+
+
+def _period_at(asked: Callable[[float], float], request: BifurcationRequest, value: float) -> float:
+    """The period at a value of the parameter. Raises RequestError where there is none."""
+    try:
+        return asked(value)
+    except SceneError as error:
+        if error.problems[0].code != "no-period":
+            raise RequestError(Mistake("bifurcation-no-period", "/period")) from None
+    sweep, told = request.sweep, {"name": request.sweep.parameter, "value": float(f"{value:.6g}")}
+    place = {sweep.start: "/sweep/from", sweep.to: "/sweep/to"}.get(value, "/sweep")
+    raise RequestError(Mistake("bifurcation-drive-at-rest", place, parameters=told))
 
 
 def _clocks(subject: Subject) -> tuple[Node, ...]:
@@ -302,17 +296,22 @@ def _require_time(request: BifurcationRequest, units: list[float]) -> None:
 
 
 def _require_few_events(
-    request: BifurcationRequest, flow: HybridFlow, values: Floats, own: Floats, spacing: Callable[[float], float]
+    request: BifurcationRequest, flow: Flow, values: Floats, own: Floats, spacing: Callable[[float], float]
 ) -> None:
     """Raises RequestError where the sweeps would go on behind too many events, told by the scene's own motion."""
     some = [float(values[0]), float(values[len(values) // 2]), float(values[-1])]
     each = max(flow.events(value, own, TRIED * spacing(value)) for value in some) / TRIED
     one = each * 2 * (request.skip + request.crossings)
-    if one * len(values) > MOST_EVENTS:
-        told: dict[str, str | float | int] = {
-            "each": float(f"{each:.2g}"),
-            "events": float(f"{one * len(values):.2g}"),
-            "most": MOST_EVENTS,
-            "count": int(MOST_EVENTS / one),
-        }
-        raise RequestError(Mistake("bifurcation-many-events", "/sweep/count", parameters=told))
+    if one * len(values) <= MOST_EVENTS:
+        return
+    told: dict[str, str | float | int] = {
+        "each": float(f"{each:.2g}"),
+        "events": float(f"{one * len(values):.2g}"),
+        "most": MOST_EVENTS,
+    }
+    count, periods = int(MOST_EVENTS / one), int(MOST_EVENTS / (2 * FEWEST_VALUES * each))
+    if count < FEWEST_VALUES:
+        mistake = Mistake("bifurcation-many-events-each", "/skip", parameters=told | {"periods": periods})
+    else:
+        mistake = Mistake("bifurcation-many-events", "/sweep/count", parameters=told | {"count": count})
+    raise RequestError(mistake)

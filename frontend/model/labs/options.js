@@ -1,7 +1,7 @@
 /** What experiments ask besides scene and values: how each answer stands in the address, and what it says to the server. */
 
 /** @typedef {import("../types.js").Scene} Scene */
-/** @typedef {{parameter: string, from: number, to: number}} Side  of a map */
+/** @typedef {{parameter: string, from: number, to: number, count?: number}} Side  of a map, or a sweep; `count` of its values */
 /** @typedef {number | string | boolean | Side | null} Answer */
 /**
  * How something is asked: by its `kind`. `name` is that of the answer in the question, `key` in the address, `label` the
@@ -13,7 +13,7 @@
  * @template {Answer} [A=Answer]
  * @typedef {{kind: "number" | "tick" | "choice" | "text" | "parameter" | "side", name: string, key: string, label: string, usual: A,
  *   read(text: string): A, write(answer: A): string, asked(answer: A): object, choices?: readonly (string | number)[],
- *   field?: string, scale?: number, range?: {shown: number | "", min?: number, max?: number}, description?: string, ofScene?: boolean, usualIn?(scene: Scene): A}} Option
+ *   field?: string, scale?: number, range?: {shown: number | "", min?: number, max?: number}, description?: string, ofScene?: boolean, values?: number, usualIn?(scene: Scene): A}} Option
  */
 /** @typedef {{example: {scene: string} & Partial<import("./question.js").Question>, options: Option[], driven?: boolean}} Experiment  `example` is the question that shows it best; `driven`: not every scene will do */
 
@@ -147,23 +147,32 @@ export const rangeOf = ({ name, value, min, max }) => ({
   to: max ?? value * 2,
 });
 
-/** A parameter of the scene and its range, "parameter:from:to" in the address. @param {string} name @param {number} last  the last parameters of a driven scene are those that drive it: which of them is usual @returns {Option<Side | null>} */
-export const side = (name, last) => ({
+/**
+ * A parameter of the scene and its range, "parameter:from:to" in the address, with the number of its values behind it if
+ * one was given.
+ * @param {string} name @param {number} last  the last parameters of a driven scene are those that drive it: which of them is usual
+ * @param {number} [values]  how many are usual, where that is asked for
+ * @returns {Option<Side | null>}
+ */
+export const side = (name, last, values) => ({
   kind: "side",
   name,
   key: name,
   label: `axis-${name}`,
   usual: null,
   ofScene: true,
+  values,
   usualIn({ parameters }) {
     const found = parameters.at(-last);
     return found ? rangeOf(found) : null;
   },
   read(text) {
     const [parameter, ...ends] = text.split(":");
-    const [from, to] = ends.map(Number);
-    return parameter && Number.isFinite(from) && Number.isFinite(to) ? { parameter, from, to } : null;
+    const [from, to, count] = ends.map(Number);
+    if (!parameter || !Number.isFinite(from) || !Number.isFinite(to)) return null;
+    return values && count > 0 ? { parameter, from, to, count } : { parameter, from, to };
   },
-  write: (answer) => (answer ? `${answer.parameter}:${answer.from}:${answer.to}` : ""),
+  write: (answer) =>
+    answer ? [answer.parameter, answer.from, answer.to, answer.count].filter((one) => one !== undefined).join(":") : "",
   asked: (answer) => ({ [name]: answer }),
 });

@@ -135,7 +135,7 @@ function parameter(view, option) {
 }
 
 /** @param {View} view @param {Option} option */
-function side(view, { name, label }) {
+function side(view, { name, label, values: usual }) {
   const { bench, benches, t } = view;
   const parameters = parametersOf(view);
   const now = /** @type {import("../../model/labs/options.js").Side | null} */ (
@@ -145,12 +145,15 @@ function side(view, { name, label }) {
   const put = (/** @type {object} */ patch) => benches.edit({ [name]: { ...now, ...patch } });
   const choose = (/** @type {Event} */ e) =>
     put(rangeOf(parameters.find((one) => one.name === textOf(e)) ?? parameters[0]));
+  const count = () =>
+    html`<label class="field row count"><span>${t("labs.count")}</span>${number(now.count ?? usual ?? "", (given) => put({ count: given }), { step: "1" })}</label>`;
   return html`
     <fieldset class="side"><legend>${t(`labs.${label}`)}</legend>
       <select aria-label=${t("labs.parameter")} .value=${live(now.parameter)} @change=${choose}>${entries(parameters, now.parameter)}</select>
       <label><span class="unseen">${t("labs.from")}</span>${number(now.from, (from) => put({ from }))}</label>
       <span aria-hidden="true">…</span>
       <label><span class="unseen">${t("labs.to")}</span>${number(now.to, (to) => put({ to }))}</label>
+      ${usual ? count() : nothing}
     </fieldset>`;
 }
 

@@ -10,6 +10,7 @@ from ..base import Answer, Name, Request, examples, outside
 from ..experiment import ExperimentAnswer, ExperimentRequest, FreeAnswer
 
 LARGEST = 1e9  # value of a parameter
+FEWEST_VALUES = 8  # of a parameter
 
 
 class MapAxis(Request):
@@ -18,7 +19,7 @@ class MapAxis(Request):
     parameter: Name = Field(description="of the scene", examples=["omega"])
     start: float = Field(alias="from", description="its least value", examples=[20.0])
     to: float = Field(description="its largest value", examples=[120.0])
-    count: int = Field(200, ge=8, le=400, description="points on this side")
+    count: int = Field(200, ge=FEWEST_VALUES, le=400, description="points on this side")
 
     model_config = ConfigDict(serialize_by_alias=True)
 

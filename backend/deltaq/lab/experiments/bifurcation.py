@@ -59,11 +59,11 @@ def run(request: BifurcationRequest) -> Iterator[Report]:
     _require_motions(made, found)
     if request.orbits:
         yield Report(SWEPT, TOTAL, _told(made, found))
-        made.allowance.renew()
+        made.sweep.view.flow.renew()
         for branch in _search(made).branches(_seeds(made, found)):
             found.written.append(_written(made, branch, len(found.branches)))
             found.branches.append(branch)
-            made.allowance.renew()
+            made.sweep.view.flow.renew()
             share = len(found.branches) / MOST_BRANCHES
             yield Report(min(SWEPT + int((TOTAL - SWEPT) * share), TOTAL - 1), TOTAL, _told(made, found))
     yield Report(TOTAL, TOTAL, _told(made, found))
@@ -112,7 +112,7 @@ def _told(made: Prepared, found: _Found) -> Document:
         "branches": [branch for branch, _ in found.written],
         "bifurcations": [one for _, located in found.written for one in located],
         "feigenbaum": rounded(feigenbaum(found.branches), 5),
-        "complete": len(found.branches) < MOST_BRANCHES and not made.allowance.is_exhausted,
+        "complete": len(found.branches) < MOST_BRANCHES and not made.sweep.view.flow.is_exhausted,
         "points": len(seen),
         "extent": significant(extent),
     }
