@@ -109,6 +109,31 @@ async def test_numbers_that_were_too_much(quick: httpx.AsyncClient, path: str, b
             200,
             id="the square of the rate of a rebound",
         ),
+        pytest.param(
+            "simulations",
+            {"scene": "bouncing-ball", "t_end": 1.0, "parameters": {"omega": 8e263}, "method": "explicit-euler"},
+            200,
+            id="a table that moves faster than any number",
+        ),
+        pytest.param(
+            "exports/markdown",
+            {"scene": "stick-slip", "t_end": 1.0, "parameters": {"g": 1.7e308}},
+            200,
+            id="what rubs exceeds all numbers",
+        ),
+        pytest.param(
+            "simulations",
+            {
+                "scene": "string-pendulum",
+                "t_end": 1.0,
+                "parameters": {"l": 1e-155},
+                "initial": {"phi": {"value": 0.1, "rate": 3.6e-162}},
+                "method": "radau-5",
+                "step": 0.01,
+            },
+            200,
+            id="the value of an event is no number",
+        ),
         pytest.param("simulations", {"scene": "pendulum", "t_end": 5e-324}, 422, id="no part of a span"),
         pytest.param("derivations", {"scene": "base-pendulum", "parameters": {"m": 1e-155}}, 200, id="a root of -0"),
         pytest.param(

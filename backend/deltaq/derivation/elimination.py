@@ -18,17 +18,18 @@ def kernel(rows: Iterable[Row], scales: Sequence[float]) -> list[Row]:
     """
     echelon: dict[int, Row] = {}
     for row in rows:
-        if all(map(math.isfinite, row)):
-            _enter(echelon, [entry / scale if scale else 0.0 for entry, scale in zip(row, scales, strict=True)])
+        _enter(echelon, [entry / scale if scale else 0.0 for entry, scale in zip(row, scales, strict=True)])
     return [_vector(echelon, k, scales) for k in range(len(scales)) if k not in echelon]
 
 
 def _enter(echelon: dict[int, Row], row: Row) -> None:
-    """Takes one more equation into the reduced echelon form."""
+    """Takes one more equation into the reduced echelon form; one with entries beyond all numbers says nothing."""
     for pivot, other in echelon.items():
         factor = row[pivot]
         if factor:
             row = [a - factor * b for a, b in zip(row, other, strict=True)]
+    if not all(map(math.isfinite, row)):
+        return
     size = max(map(abs, row), default=0.0)
     if size < NOTHING:
         return

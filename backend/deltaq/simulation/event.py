@@ -208,9 +208,9 @@ def _inverse_quadratic(new: Point, across: Point, old: Point) -> float:
 
 
 def approaches(problem: Problem, watch: Watch, t_end: float) -> tuple[Approach, ...]:
-    """How close the value of each event came to zero, as far as that was before `t_end`."""
+    """How close the value of each event came to zero, as far as that was before `t_end` and is a number."""
     found = (_approach(step, index) for index, step in enumerate(_closest(problem, watch)))
-    return tuple(approach for approach in found if approach.time <= t_end)
+    return tuple(approach for approach in found if approach.time <= t_end and math.isfinite(approach.value))
 
 
 def _closest(problem: Problem, watch: Watch) -> Iterator[Step]:
@@ -270,10 +270,10 @@ def _approach(step: Step, index: int) -> Approach:
 
 
 def _least(step: Step, index: int) -> float:
-    """The place in the step at which a value is least."""
+    """The place in the step at which a value is least; the first where it is no number all along."""
     x = np.union1d(step.nodes, np.linspace(0.0, 1.0, PARTS + 1))
     for _ in range(CLOSER):
-        at = int(np.nanargmin(step.values(x)[:, index]))
+        at = int(np.argmin(np.nan_to_num(step.values(x)[:, index], nan=np.inf)))
         best = float(x[at])
         x = np.linspace(x[max(at - 1, 0)], x[min(at + 1, len(x) - 1)], PARTS + 1)
     return best

@@ -21,7 +21,7 @@ KINDS = {
     "branching": ("square", PALETTE[4]),
     "torus": ("hexagon", PALETTE[6]),
 }
-SMALL, LARGE = 3.0, 11.0
+SMALL, LARGE = 4.0, 11.0
 JUMP = math.pi  # an angle that changes by more from point to point has turned round
 
 
