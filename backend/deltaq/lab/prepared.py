@@ -155,7 +155,8 @@ def _period_at(asked: Callable[[float], float], request: BifurcationRequest, val
     except SceneError as error:
         if error.problems[0].code != "no-period":
             raise RequestError(Mistake("bifurcation-no-period", "/period")) from None
-    sweep, told = request.sweep, {"name": request.sweep.parameter, "value": float(f"{value:.6g}")}
+    sweep = request.sweep
+    told: dict[str, str | float | int] = {"name": sweep.parameter, "value": float(f"{value:.6g}")}
     place = {sweep.start: "/sweep/from", sweep.to: "/sweep/to"}.get(value, "/sweep")
     raise RequestError(Mistake("bifurcation-drive-at-rest", place, parameters=told))
 
