@@ -304,10 +304,11 @@ def test_a_wrong_order_of_the_propagation_would_show() -> None:
 
 
 OSCILLATOR_OF_MASS = OSCILLATOR | {"parameters": [{"name": n, "value": v} for n, v in (("m", 1.0), ("k", 4.0))]}
+KINK = OSCILLATOR | {"loads": [{"kind": "potential", "name": "w", "energy": "k*abs(x)"}]}
 EMPTY = document({"x": (1.0, 0.0)}, {}, {"p": ("1", ["x", "0"])}, [{"kind": "potential", "name": "w", "energy": "x^2"}])
 REFUSED = [
     pytest.param({"runs": 2000, "t_end": 100.0}, "uncertainty-too-large", "/runs", id="too long"),
-    pytest.param({"scene": "kapitza", "runs": 2000}, "uncertainty-too-large-singly", "/runs", id="too long singly"),
+    pytest.param({"scene": KINK, "runs": 2000}, "uncertainty-too-large-singly", "/runs", id="too long singly"),
     pytest.param({"runs": 1}, "request-outside", "/runs", id="too few"),
     pytest.param({"tolerance": 0.0}, "request-outside", "/tolerance", id="zero"),
     pytest.param({"tolerance": -1.0}, "request-outside", "/tolerance", id="negative"),

@@ -16,7 +16,7 @@ from deltaq.mechanics.document import read_scene
 from deltaq.mechanics.library import load_scene
 from deltaq.mechanics.writing import write_scene
 from deltaq.simulation.driver import simulate
-from deltaq.simulation.ensemble import Ensemble, in_lanes, run_ensemble
+from deltaq.simulation.ensemble import Ensemble, in_lanes, needs_single_runs, run_ensemble
 from deltaq.simulation.ensemble_answer import run
 from deltaq.simulation.library import get_method
 from deltaq.simulation.problem import Problem as Motion
@@ -65,15 +65,68 @@ def test_errors_told_cover_the_true_ones_and_are_not_far_from_them(tolerance: fl
     assert np.all(found.worst >= told.max(axis=1) / np.pi)
 
 
-def test_a_hill_that_is_thinner_than_a_step_is_seen() -> None:
+@pytest.mark.parametrize("width", [0.016, 5e-3, 1e-3, 1e-4])
+def test_a_hill_that_is_thinner_than_a_step_is_seen(width: float) -> None:
     """U = e^(−(x/w)²)/8: a mass that comes with u = 1 goes on as fast, later by ∫ 1/√(u² − 2U) − 1/u dx."""
-    width, starts = 0.016, np.linspace(-1.4, -0.6, 41)
+    starts = np.linspace(-1.4, -0.6, 41)
     force = f"m*x/(4*{width}^2)*exp(-(x/{width})^2)"
     problem = problem_of(oscillator(force, x=-1.0, u=1.0), 10.0, 11)
     states = np.column_stack([starts, np.ones(41)])
     found = run_ensemble(Ensemble(problem, states, np.repeat([problem.parameters], 41, axis=0)), 1e-8)
-    delay = quad(lambda x: 1.0 / np.sqrt(1.0 - 0.25 * np.exp(-((x / width) ** 2))) - 1.0, -0.5, 0.5, points=[0.0])[0]
-    np.testing.assert_allclose(found.values[:, -1, 0], starts + 10.0 - delay, atol=1e-7)
+    delay = width * quad(lambda y: 1.0 / np.sqrt(1.0 - 0.25 * np.exp(-(y**2))) - 1.0, -9.0, 9.0)[0]
+    true = np.abs(found.values[:, -1, 0] - (starts + 10.0 - delay))
+    assert true.max() <= 1e-8
+    assert np.all(true <= found.errors[:, -1, 0] + 1e-13)
+
+
+def pulled(force: str, **parameters: float) -> Motion:
+    """A mass at rest in the origin, under a force in units of its mass, for 10 s."""
+    push = {**PUSH, "force": [f"m*({force})", "0"]}
+    return problem_of(read_scene(document({"x": (0.0, 0.0)}, {"m": 1.0, **parameters}, ONE, [push])), 10.0, 11)
+
+
+def varied(problem: Motion, name: str, values: np.ndarray) -> Ensemble:
+    """The same start with other values of a parameter."""
+    parameters = np.repeat([problem.parameters], len(values), axis=0)
+    parameters[:, [one.name for one in problem.model.scene.parameters].index(name)] = values
+    return Ensemble(problem, np.repeat(problem.state[None, :2], len(values), axis=0), parameters)
+
+
+PULSES = [
+    pytest.param({"A": 0.0, "c": 3.3}, "A", [0.0, 0.5, 2.0], id="none in the scene itself"),
+    pytest.param({"A": 1.0, "c": -50.0}, "c", [-50.0, 3.3, 7.1], id="before the scene's own motion"),
+    pytest.param({"A": 1.0, "c": 3.3}, "c", [1.7, 3.3, 7.1], id="at other times"),
+]
+
+
+@pytest.mark.parametrize("width", [0.1, 0.01, 1e-3])
+@pytest.mark.parametrize(("parameters", "name", "values"), PULSES)
+def test_a_pulse_of_some_of_the_motions_is_seen(
+    width: float, parameters: dict[str, float], name: str, values: list[float]
+) -> None:
+    """ẍ = A e^(−((t − c)/w)²) moves a mass at rest by A w √π (10 − c) until t = 10, if it comes within that time."""
+    problem = pulled("A*exp(-((t - c)/w)^2)", **parameters, w=width)
+    found = run_ensemble(varied(problem, name, np.array(values)), 1e-9)
+    strength, at = ((parameters | {name: np.array(values)})[each] for each in ("A", "c"))
+    true = strength * width * np.sqrt(np.pi) * np.maximum(10.0 - at, 0.0) * (at > 0.0)
+    np.testing.assert_array_less(np.abs(found.values[:, -1, 0] - true), found.errors[:, -1, 0] + 1e-14)
+    assert {outcome.status for outcome in found.outcomes} == {"ok"}
+
+
+@pytest.mark.parametrize(("frequency", "strength"), [(1.7, 1.0), (25.0, 100.0)])
+@pytest.mark.parametrize("tolerance", [1e-6, 1e-9, 1e-12])
+def test_driven_motions_go_side_by_side(tolerance: float, frequency: float, strength: float) -> None:
+    """ẍ = −x + a cos wt from rest: x = a (cos wt − cos t)/(1 − w²); the phase of a fast drive is rounded, too."""
+    frequencies = frequency * np.linspace(0.9, 1.1, 40)
+    problem = pulled("-x + a*cos(w*t)", a=strength, w=frequency)
+    ensemble = varied(problem, "w", frequencies)
+    assert not needs_single_runs(ensemble)
+    found = run_ensemble(ensemble, tolerance)
+    times, each = np.longdouble(found.times), np.longdouble(frequencies[:, None])
+    true = strength * (np.cos(each * times) - np.cos(times)) / (1.0 - each**2)
+    error = np.abs(found.values[:, :, 0] - true)
+    assert np.all(error <= found.errors[:, :, 0] + 4e-16)
+    assert error.max() <= max(tolerance, 1e-13)
 
 
 def test_code_for_steps_is_made_once_for_a_shape_and_that_of_errors_only_where_they_are_told() -> None:

@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 from ..model.tape import Tape
 from .kernels.audit import DEEPEST, GROUP, AuditWorkspace, Blind, Path, Rules, inspect, survey_times
 from .kernels.intervals import Ranges, TapeArrays
+from .kernels.sight import Meshes, Room, Slopes, find_blind
 from .method import Method
 from .pieces import Pieces, Stretch
 from .problem import Floats, Problem
@@ -112,13 +113,32 @@ class Audit:
             return ()
         rules = Rules(self.limit, self._threshold(tolerance), float(run.stride))
         width = 2 * self.problem.degrees + 1
-        workspace = _make_workspace(self._tape_arrays.codes.size)
-        blind = Blind(*_columns(MOST_STRETCHES), np.zeros(1, dtype=np.int64))
-        seeds = self._seeds(path.times[:-1:GROUP], path.q[:-1:GROUP], path.v[:-1:GROUP])
+        workspace, blind = _make_workspace(self._tape_arrays.codes.size), _make_blind()
+        rows = self.problem.inputs(path.times[:-1:GROUP], np.hstack([path.q[:-1:GROUP], path.v[:-1:GROUP]]))
+        seeds = self._seeds(rows)
         inspect(self._tape_arrays, self._ranges, path, seeds, rules, workspace, np.zeros((2, width)), blind)
         count = int(blind.found[0])
         columns = (column[:count].tolist() for column in (blind.starts, blind.ends, blind.steps))
         return tuple(Stretch(*row) for row in zip(*columns, strict=True))
+
+    def blind_motions(self, meshes: Meshes, parameters: Floats, tolerance: float) -> NDArray[np.bool_]:
+        """Which of several motions of the model were blind in a step, for a tolerance of their coordinates.
+
+        `parameters` has shape (motions, count). It may be asked in several threads.
+        """
+        operations, capacity, n = self._tape.codes.size, meshes.times.shape[1], self.problem.degrees
+        rows = np.hstack([meshes.states[:, 0], meshes.times[:, :1], parameters])
+        room = Room(
+            Slopes(*_columns(operations), np.zeros(operations), np.zeros(operations, dtype=np.int64)),
+            _make_workspace(operations),
+            Path(np.zeros(capacity), *(np.zeros((capacity, n)) for _ in range(3))),
+            np.zeros((2 + capacity, rows.shape[1])),
+            _make_blind(),
+        )
+        ranges, rules = self._ranges_of(rows[0]), Rules(self.limit, self._threshold(tolerance), 1.0)
+        found = np.zeros(len(parameters), dtype=np.int64)
+        find_blind(self._tape_arrays, ranges, meshes, parameters, self._seeds(rows), rules, room, found)
+        return found > 0
 
     def _threshold(self, tolerance: float) -> float:
         """The change of q̈ that could move a coordinate by its share of the tolerance."""
@@ -141,20 +161,23 @@ class Audit:
     @cached_property
     def _ranges(self) -> Ranges:
         """Room for the bounds, with the inputs at their initial values."""
-        start = self.problem.inputs(np.zeros(1), self.problem.state[None, :])[0]
+        return self._ranges_of(self.problem.inputs(np.zeros(1), self.problem.state[None, :])[0])
+
+    def _ranges_of(self, inputs: Floats) -> Ranges:
+        """Room for the bounds, with these inputs, shape (inputs,)."""
         operations, outputs = self._tape.codes.size, self._tape.outputs.size
-        return Ranges(start, start.copy(), *_columns(operations), np.zeros(outputs))
+        return Ranges(inputs.copy(), inputs.copy(), *_columns(operations), np.zeros(outputs))
 
-    def _seeds(self, times: Floats, q: Floats, v: Floats) -> Floats:
-        """Bounds of how q̈ moves with each output of the tape at some states, |q| above 1 counted as 1.
+    def _seeds(self, rows: Floats) -> Floats:
+        """Bounds of how q̈ moves with each output of the tape at rows (q, q̇, t, parameters), |q| above 1 counted as 1.
 
-        Guides count as they move. Shape (states, outputs of the tape).
+        Guides count as they move. Shape (rows, outputs of the tape).
         """
-        model = self.problem.model
-        table = model.motion.table(self.problem.inputs(times, np.hstack([q, v])))
-        of_motion, of_constraints = sensitivities(model.layout, table, np.maximum(1.0, np.abs(q)))
+        model, n = self.problem.model, self.problem.degrees
+        table = model.motion.table(rows)
+        of_motion, of_constraints = sensitivities(model.layout, table, np.maximum(1.0, np.abs(rows[:, :n])))
         guides = np.repeat([[self._per_span * self._per_span, self._per_span]], len(model.layout.guided), axis=1)
-        found = np.hstack([of_motion, np.repeat(guides, len(times), axis=0), of_constraints])
+        found = np.hstack([of_motion, np.repeat(guides, len(rows), axis=0), of_constraints])
         return np.asarray(np.nan_to_num(found, nan=np.finfo(float).max, posinf=np.finfo(float).max))
 
     def _leaves(self, threshold: float) -> list[tuple[float, float, float]]:
@@ -163,8 +186,8 @@ class Audit:
         Level by level the intervals that are not seen through are halved. What is left of one with a kink is one of its
         own, so that steps end there.
         """
-        n, state = self.problem.degrees, self.problem.state[None, :]
-        self._ranges.seeds[:] = self._seeds(np.zeros(1), state[:, :n], state[:, n : 2 * n])[0]
+        start = self.problem.inputs(np.zeros(1), self.problem.state[None, :])
+        self._ranges.seeds[:] = self._seeds(start)[0]
         leaves: list[tuple[float, float, float]] = []
         level = Level(np.zeros(1), np.array([self.problem.t_end]), np.zeros(1, dtype=np.bool_))
         for depth in range(LEVELS):
@@ -195,6 +218,10 @@ class Audit:
 def _columns(size: int) -> tuple[Floats, Floats, Floats]:
     """Three rows of zeros."""
     return np.zeros(size), np.zeros(size), np.zeros(size)
+
+
+def _make_blind() -> Blind:
+    return Blind(*_columns(MOST_STRETCHES), np.zeros(1, dtype=np.int64))
 
 
 def _make_workspace(operations: int) -> AuditWorkspace:

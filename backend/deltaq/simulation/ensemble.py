@@ -1,7 +1,8 @@
 """Many motions of one scene together: each with its own initial values and parameters, its own status and error.
 
 Errors are estimated by what each step did wrong and a neighbour of each motion, which tells what becomes of it
-(`series.neighbour`); the estimate of a run never falls with time.
+(`series.neighbour`); the estimate of a run never falls with time. Neither sees what lies between the places at which a
+step looks at the forces, so that the steps of all are audited; a motion that was blind somewhere is run by itself.
 """
 
 from __future__ import annotations
@@ -15,11 +16,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..model.recurrences import nudged
-from .audit import Audit
+from .audit import USUAL, Audit
 from .driver import simulate
 from .integration import Flag
+from .kernels.audit import GROUP
 from .kernels.ensemble import Addresses, Members, integrate_members, make_lanes
 from .kernels.motion import FINE, STEP_LIMIT
+from .kernels.sight import Meshes
 from .library import get_method
 from .method import Series
 from .outcome import OUT_OF_REACH, Number, Outcome, outcome_of
@@ -48,6 +51,8 @@ NEAR, MANY = 5, 1000  # the order of neighbours' series, and the steps up to whi
 # With more steps: the local tolerance of a finer run over that of the other one, and times the factor for one motion;
 # of many with two runs each, some come close to each other by chance.
 BELOW, OF_PAIRS = 1e-2, 2.0
+MOST_DRIVEN = 20_000  # steps that a drive may ask for, up to which motions go side by side
+MESH = GROUP  # ends of steps that are looked at, of each motion: of long ones every second, every fourth …
 GRAIN = 5e-12  # below that local tolerance rounding may do as much as the steps, and the one hide the other
 
 
@@ -88,7 +93,7 @@ class EnsembleMotion:
     `values` and `rates` are q and q̇ of the free coordinates, shape (motions, samples, n).
     `errors`, of the same shape, estimate those of the values; `worst`, shape (motions,), is the largest in the measure
     of a tolerance, NaN of a motion that came to no end: how wrong it is there nobody knows. `steps`, shape (motions,),
-    are those of the runs returned.
+    are those of the runs returned. `blind`, shape (motions,), tells where forces may have been missed.
     """
 
     times: Floats
@@ -98,6 +103,27 @@ class EnsembleMotion:
     worst: Floats
     steps: NDArray[np.int64]
     outcomes: tuple[Outcome, ...]
+    blind: NDArray[np.bool_]
+
+
+@dataclass(frozen=True)
+class Sight:
+    """An audit that looks at the steps of motions of one model, for a tolerance of their coordinates."""
+
+    audit: Audit
+    tolerance: float
+
+    def over(self, members: Members, parameters: Floats, integrate: Callable[[Members], None]) -> None:
+        """Integrates motions, and writes which of those that came to the end were blind.
+
+        `parameters` has shape (motions, parameters).
+        """
+        count, width = members.states.shape[0], 2 * self.audit.problem.degrees
+        progress = np.tile(np.array([[0, 1, 0]]), (count, 1))
+        meshes = Meshes(np.zeros((count, MESH)), np.zeros((count, MESH, width)), progress)
+        integrate(members._replace(mesh_times=meshes.times, mesh_states=meshes.states, progress=meshes.progress))
+        is_blind = self.audit.blind_motions(meshes, parameters, self.tolerance)
+        members.blind[:] = is_blind & (members.outcomes == FINE)
 
 
 def run_ensemble(
@@ -105,24 +131,30 @@ def run_ensemble(
 ) -> EnsembleMotion:
     """All motions to a tolerance of their coordinates; `report` hears how many are done.
 
-    Scenes whose forces depend on the time alone in ways that bound the steps, or jump, or that have events, are run one
-    by one: `simulate` knows how.
+    Scenes whose forces jump, ask for very short steps somewhere, or that have events, are run one by one: `simulate`
+    knows how. So are motions whose steps turn out to be blind.
     """
     flag = np.zeros(1, dtype=np.int64) if cancelled is None else cancelled
     tell = report or (lambda _done: None)
-    if needs_single_runs(ensemble):
+    largest = largest_step(ensemble)
+    if largest == 0.0:
         return _one_by_one(ensemble, tolerance, flag, tell)
     local = _told_apart(AHEAD * tolerance)
-    found = _run(ensemble, local, tolerance, flag, tell)
+    found = _run(ensemble, Steps(largest, local), tolerance, flag, tell)
     for _ in range(ROUNDS - 1):
-        missed = np.flatnonzero([each.status == "tolerance_missed" for each in found.outcomes])
+        is_missed = np.array([each.status == "tolerance_missed" for each in found.outcomes], dtype=np.bool_)
+        missed = np.flatnonzero(is_missed & ~found.blind)
         if not len(missed) or local <= FINEST_OF_SERIES:
             break
         excess = float(np.nanmax(found.worst[missed])) / tolerance
         local = _told_apart(local * max(SMALLER / excess, SMALLEST))
-        again = _run(ensemble.chosen(missed), local, tolerance, flag)
-        found = _merged(found, again, missed)
-    return found
+        again = _run(ensemble.chosen(missed), Steps(largest, local), tolerance, flag)
+        found = _merged(found, again, missed, again.worst < found.worst[missed])  # not where they come to no end
+    blind = np.flatnonzero(found.blind)
+    if not len(blind):
+        return found
+    alone = _one_by_one(ensemble.chosen(blind), tolerance, flag)
+    return _merged(found, alone, blind, np.ones(len(blind), dtype=np.bool_))
 
 
 def _told_apart(local: float) -> float:
@@ -138,37 +170,59 @@ def warm(problem: Problem) -> None:
 
 def needs_single_runs(ensemble: Ensemble) -> bool:
     """Whether the lanes cannot do these motions."""
-    model = ensemble.problem.model
+    return largest_step(ensemble) == 0.0
+
+
+def largest_step(ensemble: Ensemble) -> float:
+    """Seconds up to which steps see how the forces of all depend on the time alone; 0 where lanes cannot do them.
+
+    It is looked at motions with the extremes of all initial values and parameters.
+    """
+    problem, model = ensemble.problem, ensemble.problem.model
     if model.events is not None or model.switches is not None or model.recurrences.conditions:
-        return True
-    return not Audit(ensemble.problem, get_method("taylor")).before(1e-6).is_whole
+        return 0.0
+    method, largest = get_method("taylor"), LARGEST * problem.t_end
+    for index in _extremes(np.hstack([ensemble.states, ensemble.parameters])):
+        largest = min(largest, *Audit(ensemble.member(index), method).before(USUAL).largest)
+        if largest * MOST_DRIVEN < problem.t_end:
+            return 0.0
+    return largest
+
+
+def _extremes(table: Floats) -> list[int]:
+    """The rows with the least and the largest number of each column, and the first; `table` is (motions, columns)."""
+    varied = np.flatnonzero((table != table[0]).any(axis=0))
+    return sorted({0, *table[:, varied].argmin(axis=0).tolist(), *table[:, varied].argmax(axis=0).tolist()})
 
 
 def _run(
     ensemble: Ensemble,
-    local: float,
+    steps: Steps,
     tolerance: float,
     flag: Flag,
     tell: Callable[[int], None] = lambda _done: None,
 ) -> EnsembleMotion:
-    """All motions by a local tolerance, at samples that are spread evenly, with what their neighbours tell.
+    """All motions once, at samples that are spread evenly, with what their neighbours tell.
 
     Those with very many steps are compared with finer runs.
     """
     problem, n = ensemble.problem, ensemble.problem.degrees
     times = np.linspace(0.0, problem.t_end, problem.samples)
-    runs = _within_reach(ensemble, times, Steps(LARGEST * problem.t_end, local), flag, tell)
+    sight = Sight(Audit(problem, get_method("taylor")), AHEAD * tolerance)
+    runs = _within_reach(ensemble, times, steps, flag, tell, sight)
     errors = MARGIN * runs.errors[:, :, :n]
     many = np.flatnonzero(runs.steps > MANY)
     if len(many):
-        errors[many] = _by_finer_runs(ensemble.chosen(many), runs, many, local, flag)
+        errors[many] = _by_finer_runs(ensemble.chosen(many), runs, many, steps, flag)
     return _judged(ensemble, runs, errors, tolerance)
 
 
-def _within_reach(ensemble: Ensemble, times: Floats, steps: Steps, flag: Flag, tell: Callable[[int], None]) -> Members:
+def _within_reach(
+    ensemble: Ensemble, times: Floats, steps: Steps, flag: Flag, tell: Callable[[int], None], sight: Sight
+) -> Members:
     """All motions; those that no number of steps would bring to the end are OUT_OF_REACH, as single ones (`reach`)."""
     part = ensemble.problem.step_limit // PART
-    runs = in_lanes(ensemble.limited(part), times, steps, flag, tell, near=NEAR)
+    runs = in_lanes(ensemble.limited(part), times, steps, flag, tell, near=NEAR, sight=sight)
     limited = runs.outcomes == STEP_LIMIT
     far = np.flatnonzero(limited & is_far(runs.reached, float(times[-1])))
     if len(far):
@@ -176,23 +230,23 @@ def _within_reach(ensemble: Ensemble, times: Floats, steps: Steps, flag: Flag, t
         runs.outcomes[far[is_steady(runs.reached[far], half.reached)]] = OUT_OF_REACH
     left = np.flatnonzero(limited & (runs.outcomes == STEP_LIMIT))
     if len(left):
-        again = in_lanes(ensemble.chosen(left), times, steps, flag, near=NEAR)
-        for name in ("samples", "errors", "outcomes", "steps", "filled", "reached"):
+        again = in_lanes(ensemble.chosen(left), times, steps, flag, near=NEAR, sight=sight)
+        for name in ("samples", "errors", "outcomes", "steps", "filled", "reached", "blind"):
             getattr(runs, name)[left] = getattr(again, name)
     return runs
 
 
-def _by_finer_runs(ensemble: Ensemble, runs: Members, which: NDArray[np.int64], local: float, flag: Flag) -> Floats:
+def _by_finer_runs(ensemble: Ensemble, runs: Members, which: NDArray[np.int64], steps: Steps, flag: Flag) -> Floats:
     """The errors of some runs by others that are finer and a little away, shape (motions, samples, n).
 
     What but one of both came to is not known, and taken from `runs`.
     """
     t_end, n = ensemble.problem.t_end, ensemble.problem.degrees
     refinement = BySeries(t_end, SCHEME, AHEAD, BELOW)
-    coarse, fine = refinement.pair(local, Pieces.whole(t_end))
-    steps = replace(fine, size=LARGEST * t_end / APART, is_nudged=True)
+    coarse, fine = refinement.pair(steps.tolerance, Pieces.whole(t_end))
+    finer_steps = replace(fine, size=steps.size / APART, is_nudged=True)
     most = min(2 * int(runs.steps[which].max()), ensemble.problem.step_limit)  # no more where the others were given up
-    finer = in_lanes(ensemble.limited(most), runs.times, steps, flag)
+    finer = in_lanes(ensemble.limited(most), runs.times, finer_steps, flag)
     runs.outcomes[which] = np.where(runs.outcomes[which] != FINE, runs.outcomes[which], finer.outcomes)
     runs.filled[which] = np.minimum(runs.filled[which], finer.filled)
     runs.samples[which] = np.where(np.isfinite(finer.samples).all(axis=2, keepdims=True), runs.samples[which], np.nan)
@@ -210,11 +264,13 @@ def in_lanes(
     tell: Callable[[int], None] = lambda _done: None,
     *,
     near: int = 0,
+    sight: Sight | None = None,
 ) -> Members:
     """All motions from times[0] on, with samples at `times`, shape (samples,), ascending, each run once.
 
     They go side by side in lanes, blocks of them in as many threads as there are processors. Errors are found where an
-    order of neighbours is given, `near` (`series.neighbour`).
+    order of neighbours is given, `near` (`series.neighbour`), and blind steps of those that come to the end where there
+    is somebody to look, `sight`.
     """
     problem, count, order = ensemble.problem, len(ensemble), steps.order or SCHEME.order_for(steps.tolerance)
     jet = jet_of_model(problem.model, is_long=True, lanes=lanes_of_host())
@@ -230,7 +286,11 @@ def in_lanes(
         some = members._replace(  # views: what is written stays
             **{name: array[part] for name, array in members._asdict().items() if name != "times"}
         )
-        integrate_members(lanes, some, steps.tolerance, steps.size, problem.step_limit, flag)
+
+        def integrate(each: Members) -> None:
+            integrate_members(lanes, each, steps.tolerance, steps.size, problem.step_limit, flag)
+
+        integrate(some) if sight is None else sight.over(some, ensemble.parameters[part], integrate)
         return len(some.states)
 
     if count <= BLOCK:  # a thread would cost more than it brings
@@ -263,6 +323,10 @@ def _begun(ensemble: Ensemble, times: Floats, width: int, near: int, *, is_nudge
         np.zeros(count, dtype=np.int64),
         np.zeros(count, dtype=np.int64),
         np.zeros(count),
+        np.empty((count, 0)),
+        np.empty((count, 0, ensemble.states.shape[1])),
+        np.zeros((count, 3), dtype=np.int64),
+        np.zeros(count, dtype=np.int64),
     )
 
 
@@ -286,7 +350,7 @@ def _judged(ensemble: Ensemble, runs: Members, told: Floats, tolerance: float) -
     told_apart = list(zip(codes.tolist(), ends.tolist(), horizons.tolist(), excess.tolist(), strict=True))
     of_kinds = {kind: _outcome(problem, *kind, tolerance) for kind in set(told_apart)}  # most are the same
     outcomes = tuple(of_kinds[kind] for kind in told_apart)
-    return EnsembleMotion(runs.times, values, rates, errors, worst, runs.steps, outcomes)
+    return EnsembleMotion(runs.times, values, rates, errors, worst, runs.steps, outcomes, runs.blind > 0)
 
 
 def _outcome(problem: Problem, code: int, end: float, horizon: float, worst: float, tolerance: float) -> Outcome:
@@ -300,19 +364,22 @@ def _outcome(problem: Problem, code: int, end: float, horizon: float, worst: flo
     return outcome_of(code, told)
 
 
-def _merged(found: EnsembleMotion, again: EnsembleMotion, which: NDArray[np.int64]) -> EnsembleMotion:
-    """The motions, some of them replaced where the new ones are better."""
-    better = again.worst < found.worst[which]  # not where they come to no end
+def _merged(
+    found: EnsembleMotion, again: EnsembleMotion, which: NDArray[np.int64], better: NDArray[np.bool_]
+) -> EnsembleMotion:
+    """The motions, some of them, `which`, replaced by new ones where these are better: both of shape (new ones,)."""
     places, rows = which[better], np.flatnonzero(better)
     outcomes = list(found.outcomes)
     for place, row in zip(places, rows, strict=True):
         outcomes[place] = again.outcomes[row]
-    for name in ("values", "rates", "errors", "worst", "steps"):
+    for name in ("values", "rates", "errors", "worst", "steps", "blind"):
         getattr(found, name)[places] = getattr(again, name)[rows]
     return replace(found, outcomes=tuple(outcomes))
 
 
-def _one_by_one(ensemble: Ensemble, tolerance: float, flag: Flag, tell: Callable[[int], None]) -> EnsembleMotion:
+def _one_by_one(
+    ensemble: Ensemble, tolerance: float, flag: Flag, tell: Callable[[int], None] = lambda _done: None
+) -> EnsembleMotion:
     """Each motion by itself; what comes behind its end is not a number."""
     problem, count = ensemble.problem, len(ensemble)
     times = np.linspace(0.0, problem.t_end, problem.samples)
@@ -331,4 +398,5 @@ def _one_by_one(ensemble: Ensemble, tolerance: float, flag: Flag, tell: Callable
         told = {} if found.event is None else {"title": problem.model.scene.events[found.event.index].name}
         outcomes.append(replace(found.outcome, parameters={**found.outcome.parameters, **told}))
         tell(index + 1)
-    return EnsembleMotion(times, values, rates, errors, worst, steps, tuple(outcomes))
+    blind = np.zeros(count, dtype=np.bool_)
+    return EnsembleMotion(times, values, rates, errors, worst, steps, tuple(outcomes), blind)

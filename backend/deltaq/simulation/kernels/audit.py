@@ -218,7 +218,7 @@ def inspect(
     """Finds the blind steps of a path; `blind` receives them.
 
     `seeds` has shape (groups, outputs of the tape): its row k bounds |∂q̈/∂output| over the k-th GROUP of steps.
-    `spare` has shape (2, 2n + 1).
+    `spare` has shape (2, 2n + 1), or more of both.
     """
     total = path.times.size - 1
     for group in range(seeds.shape[0]):

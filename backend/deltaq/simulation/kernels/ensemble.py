@@ -15,6 +15,7 @@ from .aligned import aligned
 from .compiler import inline, kernel
 from .loop import to_a_number
 from .motion import CANCELLED, FINE, NOT_FINITE, ROUNDING, SINGULAR, STEP_LIMIT, STEP_UNDERFLOW, TOO_LARGE, Floats
+from .plan import record_row
 from .pointer import call_jet
 from .step import LARGEST_VALUE
 from .taylor import ALWAYS_UNNOTICED, LEAST_OF_SURPRISING, MOST_ORDERS, ROOM, SHORTER, UNNOTICED, sign_change
@@ -47,7 +48,9 @@ class Members(NamedTuple):
     receives the states at `times`, shape (samples,); `outcomes`, `steps`, `filled` (how many samples) and the times
     `reached` have shape (motions,). Where errors are wanted, `nudges` are changes of (q, q̇, constants) by rounding,
     shape (motions, 2n + constants), and `errors`, shape (motions, samples, 2n), receives the largest error up to each
-    sample; else both are empty in their last axis.
+    sample; else both are empty in their last axis. `mesh_times`, shape (motions, capacity), `mesh_states`
+    (motions, capacity, 2n) and `progress` (motions, 3) receive the ends of steps as `sight.Meshes`, with capacity 0 if
+    they are not wanted; `blind`, shape (motions,), is for what is made of that: 1 where a step was blind.
     """
 
     states: Floats
@@ -60,6 +63,10 @@ class Members(NamedTuple):
     steps: Integers
     filled: Integers
     reached: Floats
+    mesh_times: Floats
+    mesh_states: Floats
+    progress: Integers
+    blind: Integers
 
 
 class Addresses(NamedTuple):
@@ -190,8 +197,16 @@ def take_up(lanes: Lanes, members: Members, lane: int, member: int, near: float)
     lanes.now[lane] = members.times[0]
     lanes.sizes[lane], lanes.least[lane] = near, np.inf
     members.filled[member] = 1
+    record_end(lanes, members, lane, member)
     if members.errors.shape[2] > 0:
         begin_beside(lanes, members, lane, member)
+
+
+@inline
+def record_end(lanes: Lanes, members: Members, lane: int, member: int) -> None:
+    """Records where a lane is in the mesh of its motion."""
+    progress, state = members.progress[member], lanes.new[:, lane]
+    record_row(members.mesh_times[member], members.mesh_states[member], progress, lanes.now[lane], state)
 
 
 @inline
@@ -363,6 +378,7 @@ def verdict_on(
     lanes.told[KEPT, lane] = 1.0 if outcome == 1 else 0.0
     if outcome == 1 and was_pending:
         sample_lane(lanes, 1 - row, lane, members)
+        record_end(lanes, members, lane, member)
     if outcome == 1 and members.steps[member] >= limit:
         outcome = -STEP_LIMIT
     if cancelled[0] != 0:

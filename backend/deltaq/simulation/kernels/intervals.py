@@ -291,36 +291,46 @@ def propagate_influence(tape: TapeArrays, ranges: Ranges) -> None:
 
 @inline
 def swing_of(tape: TapeArrays, ranges: Ranges, i: int) -> float:
-    """How far the argument of operation i moves, in the unit in which its value changes its course.
+    """How far the argument of operation i moves over the box, in the unit in which its value changes its course."""
+    code, a = tape.codes[i], tape.a[i]
+    if code in (INPUT, CONSTANT, ADD, MULTIPLY) or POSITIVE <= code <= CHOICE:
+        return 0.0
+    width = ranges.high[a] - ranges.low[a]
+    if code == ARCTANGENT_2:
+        width = max(width, ranges.high[tape.b[i]] - ranges.low[tape.b[i]])
+    if code == TANGENT and not ranges.high[i] - ranges.low[i] < np.inf:
+        return np.inf
+    return product(width, swing_per_width(tape, ranges, i))
+
+
+@inline
+def swing_per_width(tape: TapeArrays, ranges: Ranges, i: int) -> float:
+    """The swing of operation i over how far its argument moves, at most: 1 over the unit in which it changes.
 
     Radians for waves, the argument itself for exponentials, its distance from the singularity for roots, reciprocals
-    and logarithms. Polynomials change theirs nowhere.
+    and logarithms. Polynomials change their course nowhere.
     """
     code, a, low, high = tape.codes[i], tape.a[i], ranges.low, ranges.high
     if code in (INPUT, CONSTANT, ADD, MULTIPLY) or POSITIVE <= code <= CHOICE:
         return 0.0
-    width, least, most = high[a] - low[a], mignitude(low[a], high[a]), magnitude(low[a], high[a])
+    least, most, unit = mignitude(low[a], high[a]), magnitude(low[a], high[a]), 1.0
     if code == POWER:
         exponent = tape.constants[i]
         if exponent >= 0.0 and exponent == np.floor(exponent):
             return 0.0
-        return width / least if least > 0.0 else (np.inf if width > 0.0 else 0.0)
-    if code == LOGARITHM:
-        return width / low[a] if low[a] > 0.0 else np.inf
-    if code in (ARCTANGENT, AREA_SINE):
-        return float(width / np.sqrt(1.0 + least * least))
-    if code in (ARCSINE, ARCCOSINE, AREA_TANGENT):
-        return width / (1.0 - most) if most < 1.0 else (np.inf if width > 0.0 else 0.0)
-    if code == AREA_COSINE:
-        return width / (low[a] - 1.0) if low[a] > 1.0 else (np.inf if width > 0.0 else 0.0)
-    if code == ARCTANGENT_2:
+        unit = least
+    elif code == LOGARITHM:
+        unit = low[a]
+    elif code in (ARCTANGENT, AREA_SINE):
+        unit = np.sqrt(1.0 + least * least)
+    elif code in (ARCSINE, ARCCOSINE, AREA_TANGENT):
+        unit = 1.0 - most
+    elif code == AREA_COSINE:
+        unit = low[a] - 1.0
+    elif code == ARCTANGENT_2:
         b = tape.b[i]
-        nearest = np.sqrt(least * least + mignitude(low[b], high[b]) ** 2)
-        width = max(width, high[b] - low[b])
-        return float(width / nearest) if nearest > 0.0 else (np.inf if width > 0.0 else 0.0)
-    if code == TANGENT and not high[i] - low[i] < np.inf:
-        return np.inf
-    return float(width)
+        unit = np.sqrt(least * least + mignitude(low[b], high[b]) ** 2)
+    return 1.0 / unit if unit > 0.0 else np.inf
 
 
 @inline

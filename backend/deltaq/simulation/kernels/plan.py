@@ -69,23 +69,31 @@ def fit_step(plan: Plan, piece: int, t: float, wanted: float) -> tuple[float, bo
 
 @inline
 def record(plan: Plan, t: float, state: Floats) -> None:
-    """Records the end of a step, a state of shape (≥ 2n,); when the record is full, every second entry is dropped."""
-    progress = plan.progress
-    if plan.times.size == 0:
+    """Records the end of a step, a state of shape (≥ 2n,)."""
+    record_row(plan.times, plan.states, plan.progress, t, state)
+
+
+@inline
+def record_row(times: Floats, states: Floats, progress: NDArray[np.int64], t: float, state: Floats) -> None:
+    """Records the end of a step in a mesh (see `Plan`); when it is full, every second entry is dropped.
+
+    `times` has shape (capacity,), `states` (capacity, 2n), `progress` (3,), and `state` (≥ 2n,).
+    """
+    if times.size == 0:
         return
     progress[SKIPPED] += 1
     if progress[SKIPPED] < progress[STRIDE] and progress[COUNT] > 0:
         return
     progress[SKIPPED] = 0
-    if progress[COUNT] == plan.times.size:
+    if progress[COUNT] == times.size:
         progress[COUNT] //= 2
         progress[STRIDE] *= 2
         for k in range(progress[COUNT]):
-            plan.times[k] = plan.times[2 * k]
-            for d in range(plan.states.shape[1]):
-                plan.states[k, d] = plan.states[2 * k, d]
+            times[k] = times[2 * k]
+            for d in range(states.shape[1]):
+                states[k, d] = states[2 * k, d]
     place = progress[COUNT]
-    plan.times[place] = t
-    for d in range(plan.states.shape[1]):
-        plan.states[place, d] = state[d]
+    times[place] = t
+    for d in range(states.shape[1]):
+        states[place, d] = state[d]
     progress[COUNT] += 1

@@ -46,6 +46,7 @@ AMONG_OTHERS = 2.0**-6  # what others of its kind do counts so much for a coordi
 # is nearly as large as what the motion does.
 MOST, LEAST = 2.0**30, 2.0**-20
 OF_STEP, OF_STATE = 2.0**-51, 2.0**-53  # what rounding does to h ẋ, and to x where forces are found
+OF_TIME = 2.0**-52  # and to the phase of a drive, by that of the time and of its product with a frequency
 EXPONENT, SIGN = 0x7FF << 52, 1 << 63  # of the bits of a number
 
 
@@ -97,13 +98,12 @@ def begin(shape: Shape) -> Code:
     goes, is_kept = (code.new(f"fcmp one {code.kind} {number}, {zero}") for number in (theta, kept))
     bases = []
     for d in range(2 * shape.degrees):
-        for row, found in ((APART, APART_FOUND), (ERRORS, ERRORS_FOUND)):
-            pair = (code.load("%work", place * shape.width + d) for place in (found, row))
-            chosen = code.select(is_kept, *pair)
-            if row == APART:
-                bases.append(chosen)
-            else:
-                code.store(chosen, "%work", row * shape.width + d)
+        kept_base, kept_error = (
+            code.select(is_kept, *(code.load("%work", row * shape.width + d) for row in pair))
+            for pair in ((APART_FOUND, APART), (ERRORS_FOUND, ERRORS))
+        )
+        bases.append(kept_base)
+        code.store(kept_error, "%work", ERRORS * shape.width + d)
     parts = code.of_bits(code.on_bits("and", code.bits(_too_far(code, shape, bases, theta)), EXPONENT))
     wanted = code.larger(code.number(LEAST), code.smaller(code.number(MOST), code.divide(scale, parts)))
     new_scale = code.select(goes, wanted, scale)
@@ -120,7 +120,9 @@ def begin(shape: Shape) -> Code:
             noise = _rounding(code, OF_STATE, state, base)
             state = code.add(state, code.multiply_add(new_scale, noise, base))
         code.store(state, "%work", near + 1 + d)
-    code.store(code.load("%given", 1 + shape.width), "%work", near + 1 + shape.width)
+    time = code.load("%given", 1 + shape.width)
+    noise = _rounding(code, OF_TIME, time, bases[shape.degrees])
+    code.store(code.multiply_add(new_scale, noise, time), "%work", near + 1 + shape.width)
     for c in range(constants):
         nudge = code.load("%work", told + ROWS + c)
         number = code.load("%given", shape.first_constant + c)
