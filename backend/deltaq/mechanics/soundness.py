@@ -14,7 +14,7 @@ from .contributions import Friction
 from .definedness import definedness_problems
 from .homogeneity import SECOND, dimension_problems
 from .independence import gap_problems, independence_problems
-from .inertia import inertia_problems
+from .inertia import inertia_problems, moment_problems
 from .integrability import integrability_problems
 from .material import Material
 from .scene import Scene
@@ -36,6 +36,7 @@ def soundness_problems(scene: Scene) -> Iterator[Problem]:
     yield from _idle_parameters(scene, found)
     yield from _units(scene, found)
     yield from _negative_friction(scene)
+    yield from moment_problems(scene)
     accelerated = tuple(_accelerations(found))
     undefined = tuple(definedness_problems(scene, ((field.pointer, field.expression) for field in found)))
     held = () if undefined else (*independence_problems(scene), *gap_problems(scene))
