@@ -161,6 +161,28 @@ def test_a_thumb_meets_what_it_presses(browser: Browser, server: str, place: str
     context.close()
 
 
+# Boxes to tick, and arrows of lists, in the size of the text beside them.
+SIZE_OF_CONTROLS = """() => {
+    const text = (element) => parseFloat(getComputedStyle(element).fontSize);
+    const tick = document.querySelector('.labs .tick input');
+    const list = document.querySelector('.labs .side select');
+    return [tick.getBoundingClientRect().height / text(tick.parentElement),
+        parseFloat(getComputedStyle(list).backgroundSize) / text(list), text(list)];
+}"""
+
+
+def test_boxes_and_arrows_grow_with_the_text(lecture: Lecture) -> None:
+    seen = []
+    for width, height in ((1366, 768), (3840, 2160)):
+        lecture.page.set_viewport_size({"width": width, "height": height})
+        lecture.page.goto(f"{lecture.address}labs?lab=bifurcation&scene=driven-pendulum")
+        lecture.page.locator(".labs .side select").wait_for()
+        tick, arrow, text = lecture.page.evaluate(SIZE_OF_CONTROLS)
+        assert (tick > 1, arrow) == (True, pytest.approx(0.4, rel=0.02))
+        seen.append(text)
+    assert seen[1] > 2 * seen[0]
+
+
 @pytest.mark.parametrize("place", ["?", "scene?", "proof?", "labs?", "homework?", "handout?", "variations?"])
 def test_a_page_wears_its_theme_before_it_has_its_texts(page: Page, server: str, place: str) -> None:
     """In a dark hall nothing flashes."""
