@@ -7,7 +7,7 @@ from itertools import pairwise
 
 import numpy as np
 import pytest
-from scipy.integrate import solve_ivp
+from scipy.integrate import quad, solve_ivp
 from scipy.optimize import brentq
 from tests.simulation.scenes import scene
 
@@ -59,6 +59,20 @@ def test_points_of_two_oscillators_lie_on_their_ellipse() -> None:
         np.testing.assert_allclose(u, 1.0, atol=1e-11)
     assert standing.outcomes.tolist() == [FINE] * 5
     np.testing.assert_array_equal(standing.reached, 200.0)
+
+
+@pytest.mark.parametrize("width", [0.05, 5e-3, 1e-3])
+def test_a_hill_that_is_thinner_than_a_step_is_seen(width: float) -> None:
+    """U = e^(−(x/w)²)/8 on the way, ÿ = −y: at 2πk, x is behind by ∫ 1/√(u² − 2U) − 1/u dx where it came with u = 1."""
+    hill = plane(f"m*y^2/2 + m*exp(-(x/{width})^2)/8")
+    starts = np.column_stack([np.linspace(-1.4, -0.6, 5), np.zeros(5), np.ones(5), np.ones(5)])
+    found, _ = crossings(hill, "y", starts, 20.0)
+    delay = width * quad(lambda y: 1.0 / math.sqrt(1.0 - 0.25 * math.exp(-(y**2))) - 1.0, -9.0, 9.0)[0]
+    for number, begin in enumerate(starts[:, 0]):
+        mine = found.motions == number
+        turns = math.tau * np.arange(1, 4)
+        np.testing.assert_allclose(found.times[mine][-3:], turns, atol=1e-11)
+        np.testing.assert_allclose(found.states[mine][-3:, 0], begin + turns - delay, atol=1e-10)
 
 
 @pytest.mark.parametrize(("direction", "first"), [(1, 2.0 * math.pi), (-1, math.pi), (0, math.pi)])

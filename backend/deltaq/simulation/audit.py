@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 from ..model.tape import Tape
 from .kernels.audit import DEEPEST, GROUP, AuditWorkspace, Blind, Path, Rules, inspect, survey_times
 from .kernels.intervals import Ranges, TapeArrays
-from .kernels.sight import Meshes, Room, Slopes, find_blind
+from .kernels.sight import Meshes, Room, Slopes, find_blind, find_unsure
 from .method import Method
 from .pieces import Pieces, Stretch
 from .problem import Floats, Problem
@@ -91,7 +91,7 @@ class Audit:
 
     def before(self, tolerance: float) -> Pieces:
         """The span in pieces, each with the largest step that resolves how the forces depend on time alone."""
-        leaves = self._leaves(self._threshold(tolerance))
+        leaves = self._leaves(self.threshold(tolerance))
         return Pieces.joined(self.problem.t_end, leaves)
 
     def guide_jump(self) -> GuideJump | None:
@@ -111,36 +111,29 @@ class Audit:
         path = _path(self.problem, run)
         if len(path.times) < 2:
             return ()
-        rules = Rules(self.limit, self._threshold(tolerance), float(run.stride))
+        rules = Rules(self.limit, self.threshold(tolerance), float(run.stride))
         width = 2 * self.problem.degrees + 1
-        workspace, blind = _make_workspace(self._tape_arrays.codes.size), _make_blind()
+        workspace, blind = _make_workspace(self.tape_arrays.codes.size), _make_blind()
         rows = self.problem.inputs(path.times[:-1:GROUP], np.hstack([path.q[:-1:GROUP], path.v[:-1:GROUP]]))
-        seeds = self._seeds(rows)
-        inspect(self._tape_arrays, self._ranges, path, seeds, rules, workspace, np.zeros((2, width)), blind)
+        seeds = self.seeds(rows)
+        inspect(self.tape_arrays, self._ranges, path, seeds, rules, workspace, np.zeros((2, width)), blind)
         count = int(blind.found[0])
         columns = (column[:count].tolist() for column in (blind.starts, blind.ends, blind.steps))
         return tuple(Stretch(*row) for row in zip(*columns, strict=True))
 
-    def blind_motions(self, meshes: Meshes, parameters: Floats, tolerance: float) -> NDArray[np.bool_]:
-        """Which of several motions of the model were blind in a step, for a tolerance of their coordinates.
-
-        `parameters` has shape (motions, count). It may be asked in several threads.
-        """
-        operations, capacity, n = self._tape.codes.size, meshes.times.shape[1], self.problem.degrees
-        rows = np.hstack([meshes.states[:, 0], meshes.times[:, :1], parameters])
+    def watcher(self, capacity: int) -> Watcher:
+        """Who looks at steps of motions of this model, up to so many at a time of each; one for each thread."""
+        operations, n, ranges = self._tape.codes.size, self.problem.degrees, self._ranges_of()
         room = Room(
             Slopes(*_columns(operations), np.zeros(operations), np.zeros(operations, dtype=np.int64)),
             _make_workspace(operations),
             Path(np.zeros(capacity), *(np.zeros((capacity, n)) for _ in range(3))),
-            np.zeros((2 + capacity, rows.shape[1])),
+            np.zeros((2 + capacity, ranges.inputs_low.size)),
             _make_blind(),
         )
-        ranges, rules = self._ranges_of(rows[0]), Rules(self.limit, self._threshold(tolerance), 1.0)
-        found = np.zeros(len(parameters), dtype=np.int64)
-        find_blind(self._tape_arrays, ranges, meshes, parameters, self._seeds(rows), rules, room, found)
-        return found > 0
+        return Watcher(self, ranges, room)
 
-    def _threshold(self, tolerance: float) -> float:
+    def threshold(self, tolerance: float) -> float:
         """The change of q̈ that could move a coordinate by its share of the tolerance."""
         return SHARE * tolerance * self._per_span * self._per_span
 
@@ -154,24 +147,25 @@ class Audit:
         return self.problem.model.tape
 
     @cached_property
-    def _tape_arrays(self) -> TapeArrays:
+    def tape_arrays(self) -> TapeArrays:
+        """The model's operations, as kernels read them."""
         tape = self._tape
         return TapeArrays(tape.codes, tape.a, tape.b, tape.c, tape.constants, tape.outputs)
 
     @cached_property
     def _ranges(self) -> Ranges:
         """Room for the bounds, with the inputs at their initial values."""
-        return self._ranges_of(self.problem.inputs(np.zeros(1), self.problem.state[None, :])[0])
+        return self._ranges_of()
 
-    def _ranges_of(self, inputs: Floats) -> Ranges:
-        """Room for the bounds, with these inputs, shape (inputs,)."""
+    def _ranges_of(self) -> Ranges:
+        inputs = self.problem.inputs(np.zeros(1), self.problem.state[None, :])[0]
         operations, outputs = self._tape.codes.size, self._tape.outputs.size
         return Ranges(inputs.copy(), inputs.copy(), *_columns(operations), np.zeros(outputs))
 
-    def _seeds(self, rows: Floats) -> Floats:
+    def seeds(self, rows: Floats) -> Floats:
         """Bounds of how q̈ moves with each output of the tape at rows (q, q̇, t, parameters), |q| above 1 counted as 1.
 
-        Guides count as they move. Shape (rows, outputs of the tape).
+        Guides count as they move. `rows` has shape (rows, inputs); returns shape (rows, outputs of the tape).
         """
         model, n = self.problem.model, self.problem.degrees
         table = model.motion.table(rows)
@@ -187,7 +181,7 @@ class Audit:
         own, so that steps end there.
         """
         start = self.problem.inputs(np.zeros(1), self.problem.state[None, :])
-        self._ranges.seeds[:] = self._seeds(start)[0]
+        self._ranges.seeds[:] = self.seeds(start)[0]
         leaves: list[tuple[float, float, float]] = []
         level = Level(np.zeros(1), np.array([self.problem.t_end]), np.zeros(1, dtype=np.bool_))
         for depth in range(LEVELS):
@@ -211,8 +205,33 @@ class Audit:
     def _swings(self, starts: Floats, ends: Floats, threshold: float) -> tuple[Floats, NDArray[np.bool_]]:
         swings, switches = np.zeros(starts.size), np.zeros(starts.size, dtype=np.int64)
         place = 2 * self.problem.degrees
-        survey_times(self._tape_arrays, self._ranges, place, starts, ends, threshold, swings, switches)
+        survey_times(self.tape_arrays, self._ranges, place, starts, ends, threshold, swings, switches)
         return swings, switches > 0
+
+
+@dataclass(frozen=True)
+class Watcher:
+    """Looks at the steps of several motions of one model."""
+
+    audit: Audit
+    ranges: Ranges
+    room: Room
+
+    def blind(self, meshes: Meshes, parameters: Floats, tolerance: float) -> NDArray[np.bool_]:
+        """Which motions were blind in a step, for a tolerance of their coordinates: shape (motions,).
+
+        `parameters` has shape (motions, parameters).
+        """
+        found, audit = np.zeros(len(parameters), dtype=np.int64), self.audit
+        find_unsure(audit.tape_arrays, self.ranges, meshes, parameters, audit.limit, self.room, found)
+        unsure = np.flatnonzero(found)
+        if len(unsure):
+            some, own = meshes.chosen(unsure), parameters[unsure]
+            seeds = audit.seeds(np.hstack([some.states[:, 0], some.times[:, :1], own]))
+            rules, blind = Rules(audit.limit, audit.threshold(tolerance), 1.0), np.zeros(len(unsure), dtype=np.int64)
+            find_blind(audit.tape_arrays, self.ranges, some, own, seeds, rules, self.room, blind)
+            found[unsure] = blind
+        return found > 0
 
 
 def _columns(size: int) -> tuple[Floats, Floats, Floats]:

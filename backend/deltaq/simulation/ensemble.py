@@ -122,7 +122,7 @@ class Sight:
         progress = np.tile(np.array([[0, 1, 0]]), (count, 1))
         meshes = Meshes(np.zeros((count, MESH)), np.zeros((count, MESH, width)), progress)
         integrate(members._replace(mesh_times=meshes.times, mesh_states=meshes.states, progress=meshes.progress))
-        is_blind = self.audit.blind_motions(meshes, parameters, self.tolerance)
+        is_blind = self.audit.watcher(MESH).blind(meshes, parameters, self.tolerance)
         members.blind[:] = is_blind & (members.outcomes == FINE)
 
 

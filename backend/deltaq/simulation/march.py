@@ -16,11 +16,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..model.recurrences import nudged
+from .audit import Audit
 from .kernels.aligned import aligned
 from .kernels.ensemble import MARGINS, NEW, NEW_REST, PIVOTS, SIZES, TOLERANCE, UNIT, WANTED
 from .kernels.motion import FINE, NOT_FINITE, SINGULAR, STEP_LIMIT, STEP_UNDERFLOW, TOO_LARGE
+from .kernels.plan import COUNT, STRIDE
+from .kernels.sight import Meshes
 from .kernels.step import LARGEST_VALUE
 from .kernels.taylor import ALWAYS_UNNOTICED, PLACES, ROOM, SHORTER, UNNOTICED
+from .library import get_method
 from .pieces import Pieces
 from .problem import Floats, Problem
 from .run import Steps
@@ -35,6 +39,7 @@ HALVINGS = 60
 ROUNDING = 2.0**-53
 BELOW, SHORTER_TWIN = 1e-3, 0.9  # the local tolerance and the bounds of twins' steps over those of the others
 LEAST_STEP = 1e-10  # over the span
+SEEN = 1e-10  # of the coordinates: what moves them by less may be missed
 MOST_STEPS = 8  # of a round
 _CALL = ctypes.CFUNCTYPE(None, *[ctypes.c_void_p] * 4)
 
@@ -124,6 +129,8 @@ class March:
         self._steps = code_of_steps(self.jet.shape)  # kept while it runs
         self._measure, self._work = _CALL(self._steps.addresses["measure"]), aligned(self.jet.work)
         self._reached = np.zeros(self.count)
+        self._watcher = Audit(problem, get_method("taylor")).watcher(self._most + 1)
+        self._parameters = np.array(problem.parameters)[None, :]
         constants = np.where(is_twin, recurrences.nudged(constants)[:, None], constants[:, None])
         states = np.hstack([starts, np.zeros((len(starts), self._layout.width - 2 * self.degrees))])
         states = np.vstack([states, nudged(states)]) if twins else states
@@ -208,8 +215,11 @@ class March:
     def settle(self, gone: Gone, is_unseen: Truths) -> Truths:
         """Which steps are taken: up to the first that `is_unseen`, shape (steps, lanes), unless it is very short.
 
-        From there the motion goes on in shorter ones. What has come to its end is told apart.
+        Where a motion may have passed over something between the ends of its steps, the first of them counts as unseen.
+        From there it goes on in shorter ones. What has come to its end is told apart.
         """
+        if not self._conditions:
+            is_unseen = is_unseen | self._blind(gone)
         refused = gone.taken & is_unseen & (gone.size > LEAST_PART * gone.wanted)
         if refused.any():
             lanes = np.flatnonzero(refused.any(axis=0))
@@ -222,6 +232,20 @@ class March:
             self._depth = min(self._most, 2 * self._depth)
         self._conclude()
         return np.asarray(taken)
+
+    def _blind(self, gone: Gone) -> Truths:
+        """The first steps taken in lanes where some may have missed what forces do: shape (steps, lanes)."""
+        n, lanes = 2 * self.degrees, np.arange(gone.taken.shape[1])
+        order = np.argsort(~gone.taken, axis=0, kind="stable")  # the steps taken come first
+        begins = np.vstack([self._records[0, m.RECORDED : m.RECORDED + n], gone.start[:1]])
+        ends = gone.rows[order, -1, lanes]
+        path = np.concatenate([begins.T[:, None], ends.transpose(1, 0, 2)], axis=1)
+        progress = np.zeros((len(lanes), 3), dtype=np.int64)
+        progress[:, COUNT], progress[:, STRIDE] = gone.taken.sum(axis=0) + 1, 1
+        meshes = Meshes(np.ascontiguousarray(path[..., n]), np.ascontiguousarray(path[..., :n]), progress)
+        found, parameters = np.zeros_like(gone.taken), np.repeat(self._parameters, len(lanes), axis=0)
+        found[order[0], lanes] = self._watcher.blind(meshes, parameters, SEEN)
+        return found
 
     def stop_behind(self, steps: Integers, lanes: Integers) -> None:
         """The motions in these lanes end where these steps did."""

@@ -42,6 +42,10 @@ class Meshes(NamedTuple):
     states: Floats
     progress: Integers
 
+    def chosen(self, which: Integers) -> Meshes:
+        """Those of some motions."""
+        return Meshes(self.times[which], self.states[which], self.progress[which])
+
 
 class Slopes(NamedTuple):
     """Of each operation, over a box: bounds of what it changes by, for a change of its operands, and of swings.
@@ -188,6 +192,38 @@ def sees_all(tape: TapeArrays, ranges: Ranges, path: Path, slopes: Slopes, limit
     return seen == steps
 
 
+@inline
+def begin_motion(meshes: Meshes, motion: int, parameters: Floats, ranges: Ranges, whole: Path) -> Path:
+    """The path of a motion, which fills the first part of `whole`, and its parameters as bounds of themselves.
+
+    `parameters` has shape (motions, parameters).
+    """
+    count, first = meshes.progress[motion, COUNT], 2 * whole.q.shape[1] + 1
+    path = Path(whole.times[:count], whole.q[:count], whole.v[:count], whole.jumps[:count])
+    fill_path(meshes, motion, path)
+    for p in range(parameters.shape[1]):
+        ranges.inputs_low[first + p] = ranges.inputs_high[first + p] = parameters[motion, p]
+    return path
+
+
+@kernel
+def find_unsure(
+    tape: TapeArrays, ranges: Ranges, meshes: Meshes, parameters: Floats, limit: float, room: Room, found: Integers
+) -> None:
+    """Tells of each motion whether slopes leave it open that a step was blind: 1 in `found`, shape (motions,), else 0.
+
+    `parameters` has shape (motions, parameters); arguments may swing up to the `limit` in a part of a step that is seen
+    through.
+    """
+    choose(tape, room.slopes)
+    for motion in range(found.size):
+        found[motion] = 0
+        if meshes.progress[motion, COUNT] > 1:
+            path = begin_motion(meshes, motion, parameters, ranges, room.path)
+            longest = HALVES * limit * meshes.progress[motion, STRIDE]
+            found[motion] = 0 if sees_all(tape, ranges, path, room.slopes, longest, room.spare) else 1
+
+
 @kernel
 def find_blind(
     tape: TapeArrays,
@@ -197,25 +233,15 @@ def find_blind(
     seeds: Floats,
     rules: Rules,
     room: Room,
-    is_blind: Integers,
+    found: Integers,
 ) -> None:
-    """Tells of each motion whether any of its steps was blind: 1 in `is_blind`, shape (motions,), else 0.
+    """Tells of each motion whether any of its steps was blind: 1 in `found`, shape (motions,), else 0.
 
     `parameters` has shape (motions, parameters); `seeds`, shape (motions, outputs of the tape), bounds |∂q̈/∂output|.
     """
-    n, blind, spare = room.path.q.shape[1], room.blind, room.spare
-    choose(tape, room.slopes)
-    for motion in range(is_blind.size):
-        count, is_blind[motion] = meshes.progress[motion, COUNT], 0
-        if count < 2:
-            continue
-        path = Path(room.path.times[:count], room.path.q[:count], room.path.v[:count], room.path.jumps[:count])
-        fill_path(meshes, motion, path)
-        for p in range(parameters.shape[1]):
-            ranges.inputs_low[2 * n + 1 + p] = ranges.inputs_high[2 * n + 1 + p] = parameters[motion, p]
+    for motion in range(found.size):
+        path = begin_motion(meshes, motion, parameters, ranges, room.path)
+        room.workspace.looked[0], room.blind.found[0] = 0, 0
         own = Rules(rules.limit, rules.threshold, float(meshes.progress[motion, STRIDE]))
-        if sees_all(tape, ranges, path, room.slopes, HALVES * own.stride * own.limit, spare):
-            continue
-        room.workspace.looked[0], blind.found[0] = 0, 0
-        inspect(tape, ranges, path, seeds[motion : motion + 1], own, room.workspace, spare, blind)
-        is_blind[motion] = 1 if blind.found[0] > 0 else 0
+        inspect(tape, ranges, path, seeds[motion : motion + 1], own, room.workspace, room.spare, room.blind)
+        found[motion] = 1 if room.blind.found[0] > 0 else 0
