@@ -42,8 +42,8 @@ RangeEnd = Literal["force", "kink", "bend", "contact"]
 # depend on one another in some of them; or those at kinks, on contacts, or held by friction were not all sought.
 SearchEnd = Literal["budget", "continuum", "singular", "kinks", "contacts", "friction"]
 # Parts that a derivation is complete without, and why one is missing: it has not been asked for, its operations were
-# spent, its time was over, it failed, or it is not made for scenes with constraints, or on rates; and of multipliers
-# written out: they are too long or too many.
+# spent, its time was over, it failed, or it is not made for scenes with constraints, or on rates, or such as
+# follow from others; and of multipliers written out: they are too long or too many.
 OptionalPart = Literal[
     "multipliers",
     "model",
@@ -55,10 +55,17 @@ OptionalPart = Literal[
     "relative-equilibria",
     "canonical",
 ]
-Missing = Literal["later", "budget", "time", "failed", "constraints", "rates", "long", "many", "ended"]
+Missing = Literal["later", "budget", "time", "failed", "constraints", "rates", "long", "many", "dependent", "ended"]
 # What is added to the name of a part that is missing for a reason of the scene's own, to name the sentence about it.
 OWN_REASONS: Mapping[Missing, str] = MappingProxyType(
-    {"constraints": "-constrained", "rates": "-rates", "long": "-long", "many": "-many", "ended": "-ended"}
+    {
+        "constraints": "-constrained",
+        "rates": "-rates",
+        "long": "-long",
+        "many": "-many",
+        "dependent": "-dependent",
+        "ended": "-ended",
+    }
 )
 # Among which generators symmetries are sought: those affine in coordinates and time; motions of space and rigid bodies.
 GeneratorFamily = Literal["affine", "motions-of-space"]

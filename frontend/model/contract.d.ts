@@ -2828,6 +2828,12 @@ export interface components {
          */
         DerivationResult: {
             /**
+             * Degrees Of Freedom
+             * @description free coordinates less independent constraints, of the scene with its changes
+             * @example 2
+             */
+            degrees_of_freedom: number;
+            /**
              * Positions
              * @description by body
              */
@@ -4903,7 +4909,7 @@ export interface components {
              * @description `later`: ask for it; `budget`: its operations are spent; `time`: its time is; `failed`: our bug; others are of the scene's own
              * @enum {string}
              */
-            reason: "later" | "budget" | "time" | "failed" | "constraints" | "rates" | "long" | "many" | "ended";
+            reason: "later" | "budget" | "time" | "failed" | "constraints" | "rates" | "long" | "many" | "dependent" | "ended";
             /**
              * Text
              * @description that it is missing, and what to do about it
@@ -7630,7 +7636,7 @@ export interface components {
             } | null;
             /**
              * Undetermined
-             * @description multipliers that are not unique, since their constraints depend on one another
+             * @description multipliers and reactions that are not unique, since constraints depend on one another
              */
             undetermined?: string[] | null;
             /**

@@ -10,8 +10,16 @@ import { readChanges, UNCHANGED } from "./values.js";
 /** Coordinates that no guide prescribes: each has an equation. @param {Counted} scene */
 export const freedomsOf = ({ coordinates, guides }) => coordinates.length - (guides ?? []).length;
 
-/** Degrees of freedom: those less the constraints. @param {Counted} scene */
-export const degreesOf = (scene) => freedomsOf(scene) - (scene.constraints ?? []).length;
+/**
+ * Degrees of freedom: those less the constraints, of which some may follow from others. How many do, the derivation knows;
+ * it leaves one degree at least.
+ * @param {Counted} scene @param {import("./types.js").Derivation | null} [derivation]
+ */
+export function degreesOf(scene, derivation) {
+  const constraints = scene.constraints ?? [];
+  const known = constraints.length ? derivation?.result?.degrees_of_freedom : undefined;
+  return known ?? Math.max(1, freedomsOf(scene) - constraints.length);
+}
 
 /**
  * @param {import("./state.js").Store} store

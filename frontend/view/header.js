@@ -135,9 +135,12 @@ function penEntry(view) {
 }
 
 /** The built-in scenes, and the viewer's own if it is there. @param {View["state"]} state */
-function entriesOf({ scenes, scene, place }) {
+function entriesOf({ scenes, scene, derivation, place }) {
   if (place.scene !== OWN || !scene) return scenes;
-  return [{ id: OWN, title: scene.title, summary: scene.summary, degrees_of_freedom: degreesOf(scene) }, ...scenes];
+  return [
+    { id: OWN, title: scene.title, summary: scene.summary, degrees_of_freedom: degreesOf(scene, derivation) },
+    ...scenes,
+  ];
 }
 
 /** Whether a title may still come: nobody is asked to choose what has been chosen. @param {View["state"]} state */
@@ -153,7 +156,7 @@ function sceneChooser({ state, session, t }) {
     session.move({ edit: "" });
     void session.choose(id);
   };
-  const freedoms = shown ? degreesOf(shown) : (entry?.degrees_of_freedom ?? 0);
+  const freedoms = shown ? degreesOf(shown, state.derivation) : (entry?.degrees_of_freedom ?? 0);
   const about = inLanguage(state.scene?.summary, lang);
   const titleOf = (/** @type {import("../model/types.js").SceneEntry} */ one) =>
     inLanguage((one.id === scene && shown?.title) || one.title, lang);

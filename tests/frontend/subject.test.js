@@ -142,14 +142,19 @@ test("the address of a scene that is being written holds all of it", async () =>
 });
 
 test("coordinates less guides have equations; less constraints as well, they are degrees of freedom", () => {
-  for (const [guides, constraints, freedoms, degrees] of /** @type {[any, any, number, number][]} */ ([
-    [undefined, undefined, 2, 2],
-    [[{}], undefined, 1, 1],
-    [undefined, [{}], 2, 1],
-    [[], [], 2, 2],
-    [[{}], [{}], 1, 0],
+  const told = (/** @type {number} */ count) => ({ id: "own", chapters: [], result: { degrees_of_freedom: count } });
+  for (const [guides, constraints, derivation, freedoms, degrees] of /** @type {[any, any, any, number, number][]} */ ([
+    [undefined, undefined, null, 2, 2],
+    [[{}], undefined, null, 1, 1],
+    [undefined, [{}], null, 2, 1],
+    [[], [], null, 2, 2],
+    [undefined, [{}, {}, {}], null, 2, 1], // one at least: a scene that moves, of which the derivation will tell more
+    [undefined, [{}, {}, {}], told(1), 2, 1],
+    [undefined, [{}], told(1), 2, 1],
+    [undefined, [{}, {}], { id: "dalembert-lagrange", chapters: [] }, 2, 1], // a general proof, which tells nothing of it
+    [undefined, undefined, told(1), 2, 2], // a frozen coordinate: the scene is as it was
   ])) {
-    const counted = { coordinates: scene.coordinates, guides, constraints };
-    assert.deepEqual([freedomsOf(/** @type {any} */ (counted)), degreesOf(/** @type {any} */ (counted))], [freedoms, degrees]);
+    const counted = /** @type {any} */ ({ coordinates: scene.coordinates, guides, constraints });
+    assert.deepEqual([freedomsOf(counted), degreesOf(counted, derivation)], [freedoms, degrees]);
   }
 });

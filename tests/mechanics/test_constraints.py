@@ -112,7 +112,7 @@ WRONG = [
     ),
     pytest.param(
         [equation("y = l"), equation("x = l")],
-        (Problem("duplicate-name", "/constraints", parameters={"name": "track"}),),
+        (Problem("duplicate-name", "/constraints/1/name", parameters={"name": "track"}),),
     ),
     pytest.param(
         [{"kind": "rod", "name": "rod"}],
@@ -217,7 +217,8 @@ def test_freezing_leaves_a_motion_or_is_refused() -> None:
     scene = scene_of(rod(), equation("x = z"))
     with pytest.raises(InputError) as caught:
         change(scene, freeze=["x"])
-    assert caught.value.problems == (Problem("no-free-coordinate", "/freeze/0"),)
+    told = {"count": 2, "free": 2}
+    assert caught.value.problems == (Problem("too-many-constraints", "/freeze/0", parameters=told),)
     held = scene_of(equation("x = l"))
     with pytest.raises(InputError) as caught:
         change(held, freeze=["x"])

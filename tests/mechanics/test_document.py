@@ -328,7 +328,7 @@ WRONG = [
     ),
     pytest.param(
         put("/events", [{"name": "slack", "value": "g"}] * 2),
-        Problem("duplicate-name", "/events", parameters={"name": "slack"}),
+        Problem("duplicate-name", "/events/1/name", parameters={"name": "slack"}),
         id="two events of one name",
     ),
     pytest.param(put("/dimension", 4), Problem("wrong-space", "/dimension"), id="four dimensions"),

@@ -83,7 +83,6 @@ NEVER_ONE = {
     "errors.answers-many": "beyond a bound",
     "errors.handins-many": "beyond a bound",
     "errors.answer-not-vector": "components of a vector",
-    "errors.too-many-constraints": "a single one on no free coordinate is told otherwise",
     "labs.stability.caption": "eigenvalues come in pairs",
     "labs.stability-map.caption": "points of a map",
     "labs.chaos.map-caption": "motions of a map",

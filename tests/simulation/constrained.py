@@ -155,6 +155,25 @@ def swing_seat() -> Scene:
     )
 
 
+def platform(rods: int, *more: Document, begin: tuple[float, float] = (0.6, -0.8), positive: bool = False) -> Scene:
+    """A platform of 2 kg on so many parallel rods of 1 m: it does not turn, and swings as a pendulum does.
+
+    Two rods would do: from the third on they follow from these where they all hold, and nowhere else.
+    """
+    at = [f"{k}/2 - 1/2" for k in range(rods)]
+    pivots = {f"above{k}": [x, "0"] for k, x in enumerate(at)}
+    ends = {f"end{k}": [f"x + ({x})*cos(p)", f"y + ({x})*sin(p)"] for k, x in enumerate(at)}
+    bar: Document = {"name": "bar", "kind": "rigid", "mass": "m", "inertia": "J", "angle": "p", "position": ["x", "y"]}
+    return scene(
+        {"x": (begin[0], 0.0), "y": (begin[1], 0.0), "p": (0.0, 0.0)},
+        {"m": 2.0, "J": 0.3, "l": 1.0, "g": G},
+        [bar],
+        [*(rod(f"S{k}", f"above{k}", f"end{k}") for k in range(rods)), *more],
+        points=pivots | ends,
+        positive=positive,
+    )
+
+
 def equal_slider_crank() -> Scene:
     """Crank and rod of one length: where both stand upright, the slider may stay and the crank turn on."""
     bars: list[Document] = [

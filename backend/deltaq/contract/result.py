@@ -382,6 +382,9 @@ class EquilibriumSearch(Answer):
 class DerivationResult(Answer):
     """The results, as expressions in the names of the scene."""
 
+    degrees_of_freedom: int = Field(
+        examples=[2], description="free coordinates less independent constraints, of the scene with its changes"
+    )
     positions: dict[str, VectorFormula] = Field(description="by body")
     points: dict[str, VectorFormula] = Field(description="by point")
     virtual_displacements: dict[str, VectorFormula] = Field(description="by body")

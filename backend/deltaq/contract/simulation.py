@@ -191,7 +191,8 @@ class SimulationAnswer(Answer):
     )
     reactions: dict[str, ReactionKind] | None = Field(None, description="what each of the `multipliers` is")
     undetermined: tuple[str, ...] | None = Field(
-        None, description="multipliers that are not unique, since their constraints depend on one another"
+        None,
+        description="multipliers and reactions that are not unique, since constraints depend on one another",
     )
     drift: float | None = Field(None, description="largest amount by which a holonomic constraint is not kept")
     moved: dict[str, MovedValue] | None = Field(

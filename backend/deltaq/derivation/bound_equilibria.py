@@ -50,8 +50,8 @@ SHARE = 4  # times the operations of a search without constraints: they have mor
 
 
 def is_sought(system: System) -> bool:
-    """Whether equilibria may be isolated: constraints on rates alone make families of them."""
-    return all(condition.is_holonomic for condition in system.conditions)
+    """Whether equilibria may be isolated, which constraints on rates make families of, and have unique multipliers."""
+    return all(condition.is_holonomic for condition in system.conditions) and not system.scene.is_redundant
 
 
 def searched(system: System) -> Search | None:

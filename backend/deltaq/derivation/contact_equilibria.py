@@ -95,7 +95,7 @@ def contact_search(system: System) -> ContactSearch | None:
     still = tuple(event for event in bouncing(system) if not moves(system, event))
     if any(gap(system, event).has(system.t) for event in still):
         return _at_these_values(system, still)
-    degrees = len(system.free) - len(system.conditions)
+    degrees = system.scene.degrees_of_freedom
     every = (each for size in range(1, degrees + 1) for each in combinations(still, size))
     choices = tuple(islice(every, MOST + 1))
     budget = Budget(SHARE * OPERATIONS)

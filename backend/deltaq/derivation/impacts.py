@@ -150,7 +150,7 @@ def answers(system: System, event: Event) -> dict[str, sp.Expr]:
 def _mobility(system: System) -> _Mobility | None:
     """P and R; M⁻¹ and nothing without constraints. None where they are too long, or constraints are dependent."""
     mass, rows = mass_matrix(system), system.constraint_matrix()
-    if len(system.free) > MOST_COORDINATES or sum(map(size, (*mass, *rows))) > MOST_GIVEN:
+    if system.scene.is_redundant or len(system.free) > MOST_COORDINATES or sum(map(size, (*mass, *rows))) > MOST_GIVEN:
         return None
     inverse = inverse_of(system, mass)
     if inverse is None or not system.conditions:

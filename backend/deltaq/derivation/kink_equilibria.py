@@ -94,7 +94,7 @@ def _search(system: System) -> RestSearch:
 
 def _choices(system: System) -> Iterator[_Choice]:
     still = [event for event in bouncing(system) if not moves(system, event)]
-    degrees = len(system.free) - len(system.conditions)
+    degrees = system.scene.degrees_of_freedom
     for size in range(1, degrees + 1):
         for count in range(1, size + 1):
             for kinks, contacts in product(combinations(switches(system), count), combinations(still, size - count)):

@@ -57,6 +57,8 @@ def multipliers(system: System) -> Multipliers | None:
 
 def _written(system: System) -> Multipliers:
     """Raises NotWritten."""
+    if system.scene.is_redundant:  # the determinant is zero where the constraints hold, and nowhere else
+        raise NotWritten("dependent")
     mass, rows = mass_matrix(system), system.constraint_matrix()
     if _are_many(system, mass):
         raise NotWritten("many")

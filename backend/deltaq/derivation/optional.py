@@ -1,7 +1,8 @@
 """The parts of the last chapter that a derivation is complete without, each within its share of operations.
 
 A part whose share is used up is as if there were nothing to be found; `system.effort.left_out` tells so, as it does of
-parts that have no law for scenes with constraints: symmetries that keep them, equilibria with constraints on rates.
+parts that have no law for scenes with constraints: symmetries that keep them, equilibria with constraints on
+rates, or with such as follow from others.
 """
 
 from __future__ import annotations
@@ -24,7 +25,8 @@ from .system import System
 def search_of(system: System) -> Search | None:
     """The search for equilibria."""
     if not is_sought(system):
-        system.effort.left_out["equilibria"] = "rates"
+        bound = all(condition.is_holonomic for condition in system.conditions)
+        system.effort.left_out["equilibria"] = "dependent" if bound else "rates"
         return None
     found = system.effort.afford("equilibria", lambda: searched(system), None)
     if found and found.beyond:

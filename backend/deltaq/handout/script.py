@@ -122,10 +122,10 @@ def constraint_drift(t, q, v):  # gamma in A v' + gamma = 0
 HOLONOMIC = {holonomic}  # rows of A that belong to conditions
 
 
-def accelerations_and_multipliers(t, q, v):
+{least}def accelerations_and_multipliers(t, q, v):
     mass, rows = mass_matrix(t, q), constraint_matrix(t, q)
     whole = np.block([[mass, rows.T], [rows, np.zeros((len(rows), len(rows)))]])
-    found = np.linalg.solve(whole, np.concatenate([forcing(t, q, v), -constraint_drift(t, q, v)]))
+    found = {solve}(whole, np.concatenate([forcing(t, q, v), -constraint_drift(t, q, v)]))
     return found[: len(q)], -found[len(q) :]
 
 
@@ -136,7 +136,7 @@ def right_hand_side(t, state):
 
 def correction(t, q, rows, gap):  # the least change in the metric of M that closes the gap
     moved = np.linalg.solve(mass_matrix(t, q), rows.T)
-    return moved @ np.linalg.solve(rows @ moved, gap)
+    return moved @ {solve}(rows @ moved, gap)
 
 
 def projected(t, state):  # the nearest state that keeps the constraints, by Newton's method
@@ -169,6 +169,12 @@ def solve(t_end=T_END, samples=SAMPLES):
 
 def multipliers(times, q, v):
     return np.array([accelerations_and_multipliers(*state)[1] for state in zip(times, q.T, v.T)]).T
+
+
+"""
+LEAST = """\
+def least(matrix, right):  # constraints depend on one another: of many multipliers the least; the motion is the same
+    return np.linalg.lstsq(matrix, right, rcond=1e-9)[0]
 
 
 """
@@ -288,6 +294,8 @@ def _constrained(system: System, words: Words, content: Mapping[str, str]) -> di
         "constraint_matrix": words.matrix(system.constraint_matrix()),
         "constraint_offset": words.vector(column(map(system.moving_term, bound))),
         "constraint_drift": words.vector(column(map(system.drift_term, bound))),
+        "solve": "least" if system.scene.is_redundant else "np.linalg.solve",
+        "least": LEAST if system.scene.is_redundant else "",
         "holonomic": repr([index for index, each in enumerate(bound) if each.is_holonomic]),
     }
     dynamics = CONSTRAINED.format(**content, **parts)

@@ -74,7 +74,7 @@ def _guided(scene: Scene, guide: Guide, pointer: str) -> Scene:
         known = ", ".join(coordinate.name for coordinate in scene.free)
         parameters = {"name": guide.coordinate[:40], "known": known}
         raise UnknownNameError(Problem("unknown-coordinate", f"{pointer}/coordinate", parameters=parameters))
-    if scene.degrees_of_freedom == 1:
+    if len(scene.free) == 1:
         raise SceneError(Problem("no-free-coordinate", pointer))
     try:
         return replace(scene, guides=(*scene.guides, guide))

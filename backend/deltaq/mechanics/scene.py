@@ -3,22 +3,24 @@
 from __future__ import annotations
 
 import re
-from collections import Counter
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
+from itertools import chain
 from types import MappingProxyType
 
 from ..errors import Problem, escaped
 from ..language.expression import Expression, expressions_in
 from ..language.floats import evaluate
 from ..language.names import Names, Symbol, is_reserved
+from ..language.spelling import spell_rate
 from .bodies import Body
 from .checks import demand, load_name_problem
 from .conditions import Condition
 from .constraints import Constraint
 from .contributions import Contribution, DistributedForce
 from .coordinate import Coordinate
+from .dependence import dependence_problems, random_points
 from .drawing import Drawing
 from .event import Event
 from .guide import Guide
@@ -26,6 +28,7 @@ from .loads import Load
 from .material import Material
 from .parameter import Parameter
 from .point import Point
+from .redundancy import Independence, independence
 from .user_text import Translated
 
 _DECIMAL = re.compile(r"\d\.\d")
@@ -65,13 +68,13 @@ class Scene:
             yield Problem("no-coordinate", "/coordinates")
         elif not self.free:
             yield Problem("no-free-coordinate", "/guides")
-        yield from _repeated("/points", [*(p.name for p in self.points), *(b.name for b in self.bodies)])
-        yield from _repeated("/loads", [load.name for load in self.loads])
-        yield from _repeated("/guides", [guide.coordinate for guide in self.guides])
-        yield from _repeated("/events", [event.name for event in self.events])
+        yield from _repeated(_named("/points", self.points), _named("/bodies", self.bodies))
+        yield from _repeated(_named("/loads", self.loads))
+        yield from _repeated((f"/guides/{i}/coordinate", guide.coordinate) for i, guide in enumerate(self.guides))
+        yield from _repeated(_named("/events", self.events))
         for index, event in enumerate(self.events):
             yield from self._restitution_problems(f"/events/{index}/restitution", event)
-        yield from _repeated("/constraints", [constraint.name for constraint in self.constraints])
+        yield from _repeated(_named("/constraints", self.constraints))
         yield from self._multiplier_problems()
         yield from filter(None, (load_name_problem(load.name, f"/loads/{i}/name") for i, load in enumerate(self.loads)))
         for name in sorted(self.labels.keys() - self.places.keys() - self._others):
@@ -125,10 +128,18 @@ class Scene:
                 )
 
     def _freedom_problems(self) -> Iterator[Problem]:
-        """All constraints together must leave a motion."""
-        if self.degrees_of_freedom <= 0:
+        """All constraints together must leave a motion, which fewer of them than coordinates do."""
+        if len(self.constraints) < len(self.free) or self.degrees_of_freedom > 0:
+            return
+        unmet = self.independence.unmet
+        if unmet is None:
             parameters = {"count": len(self.constraints), "free": len(self.free)}
             yield Problem("too-many-constraints", f"/constraints/{len(self.free) - 1}", parameters=parameters)
+            return
+        free, names = ([coordinate.name for coordinate in each] for each in (self.free, self.coordinates))
+        told = tuple(dependence_problems(self.conditions, free, random_points(self.start, names)))
+        gap = {"gap": f"{self.independence.gap:.3g}"}
+        yield from told or (Problem("constraint-not-met", f"/constraints/{unmet}", parameters=gap),)
 
     @cached_property
     def names(self) -> Names:
@@ -193,8 +204,28 @@ class Scene:
 
     @property
     def degrees_of_freedom(self) -> int:
-        """How many rates may be chosen at will: free coordinates less (independent) constraints."""
-        return len(self.free) - len(self.constraints)
+        """How many rates may be chosen at will: free coordinates less independent constraints."""
+        return self.independence.freedoms
+
+    @property
+    def is_redundant(self) -> bool:
+        """Whether constraints follow from others wherever they all hold, so that not all multipliers are unique."""
+        return len(self.independence.chosen) < len(self.constraints)
+
+    @cached_property
+    def independence(self) -> Independence:
+        """How many constraints are independent where they all hold, near the start."""
+        if not self.constraints:
+            return Independence((), len(self.free))
+        return independence(self.conditions, [coordinate.name for coordinate in self.free], self.start)
+
+    @property
+    def start(self) -> dict[str, float]:
+        """Parameters, coordinates and rates at t = 0 by name; guided ones as their guides say, their rates left out."""
+        known = {parameter.name: parameter.value for parameter in self.parameters} | {"t": 0.0}
+        guided = {guide.coordinate: evaluate(guide.value.tree, known) for guide in self.guides}
+        rates = {spell_rate(coordinate.name, 1): 0.0 for coordinate in self.coordinates}
+        return known | {coordinate.name: coordinate.value for coordinate in self.coordinates} | guided | rates
 
     @property
     def _others(self) -> set[str]:
@@ -231,7 +262,16 @@ def _listed(names: frozenset[str]) -> str:
     return ", ".join(sorted(names))
 
 
-def _repeated(pointer: str, names: list[str]) -> Iterator[Problem]:
-    for name, count in Counter(names).items():
-        if count > 1:
+def _named(pointer: str, things: Iterable[Point | Body | Load | Event | Constraint]) -> Iterator[tuple[str, str]]:
+    """Where each name stands, and the name."""
+    return ((f"{pointer}/{index}/name", thing.name) for index, thing in enumerate(things))
+
+
+def _repeated(*places: Iterable[tuple[str, str]]) -> Iterator[Problem]:
+    """Names that stand a second time, there; what stands more often is told once."""
+    met, told = set[str](), set[str]()
+    for pointer, name in chain.from_iterable(places):
+        if name in met - told:
             yield Problem("duplicate-name", pointer, parameters={"name": name})
+            told.add(name)
+        met.add(name)

@@ -62,6 +62,7 @@ def solution(scene: Scene, columns: Mapping[str, Floats]) -> Solution | None:
     kept = kept_positions(scene, columns)
     if kept is None:
         return None
+    kept = tuple(kept[place] for place in scene.independence.chosen)  # the others follow
     found = (each.found for each in islice(_search(_begun(scene, columns, kept)), MOST) if not each.unsolved.conditions)
     return next(found, None)
 

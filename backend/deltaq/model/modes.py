@@ -30,7 +30,7 @@ from ..mechanics.scene import Scene
 from .compiled import Compiled, compile_expressions
 from .equations import Equations, equations, guided_into
 from .functions import Expr, sign
-from .kinetic import ZERO, velocity
+from .kinetic import ZERO, Vector, velocity
 from .model import Mechanics, Model, build
 from .piecewise import Smoothing, by_signs
 from .symbols import Symbols
@@ -270,9 +270,9 @@ class _Assembly:
         if not self.rows:
             return ()
         forcing = [self._held(force) for force in self._forcing]
-        m, kept = len(self.rows), self.plain.constraints
-        none = [ZERO] * len(kept.names)
-        columns = [*([*row.along, *none] for row in self.rows), [*forcing, *kept.accelerations]]
+        m, (_, bends) = len(self.rows), self._kept
+        none = [ZERO] * len(bends)
+        columns = [*([*row.along, *none] for row in self.rows), [*forcing, *bends]]
         solved = [each[: len(forcing)] for each in _solve(self._augmented, columns)]
         flexibility = [[_dot(row.a, solved[j]) for j in range(m)] for row in self.rows]
         load = [-(_dot(row.a, solved[m]) + row.bias) for row in self.rows]
@@ -287,9 +287,16 @@ class _Assembly:
         return tuple(_solve(tuple(map(tuple, matrix)), [right])[0])
 
     @property
+    def _kept(self) -> tuple[list[Vector], list[Expr]]:
+        """Rows of A and γ of the constraints that others follow from, which have no pivot of their own."""
+        held = self.plain.constraints
+        chosen = [k for k, place in enumerate(held.places) if place in self.scene.independence.chosen]
+        return [held.jacobian[k] for k in chosen], [held.accelerations[k] for k in chosen]
+
+    @property
     def _augmented(self) -> tuple[tuple[Expr, ...], ...]:
         """[M Aᵀ; A 0], of q̈ and −λ of the constraints: what a reaction moves keeps to them."""
-        kept = self.plain.constraints.jacobian
+        kept, _ = self._kept
         upper = ((*row, *(each[i] for each in kept)) for i, row in enumerate(self.plain.mass_matrix))
         return (*upper, *((*each, *([ZERO] * len(kept))) for each in kept))
 

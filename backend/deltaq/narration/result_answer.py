@@ -35,6 +35,7 @@ def written(result: Result, origins: Mapping[str, Mapping[str, Origins]], write:
     kinked = result.kinked or RestSearch()
     sums, resting = _Sums(result, origins, write), result.resting.found if result.resting else ()
     return {
+        "degrees_of_freedom": result.scene.degrees_of_freedom,
         "positions": {name: write.vector(value) for name, value in result.positions.items()},
         "points": {name: write.vector(value) for name, value in result.points.items()},
         "virtual_displacements": {name: write.vector(value) for name, value in result.virtual_displacements.items()},

@@ -82,6 +82,13 @@ def consistent_start(model: Model, parameters: Floats, values: Floats, rates: Fl
     return Start(found, speeds, rank, tuple(int(k) for k in np.flatnonzero(free > SHARES)))
 
 
+def idle_multipliers(problem: Problem) -> Floats:
+    """λ that exert no force where a problem begins, Aᵀλ = 0, one for each constraint too many: shape (idle, m)."""
+    held, values = _Held(problem.model, np.array(problem.parameters)), np.array(problem.values)
+    shares, vectors = held.shares(values)
+    return np.asarray((vectors[:, shares <= SMALLEST_SHARE] * held.scales(values)[:, None]).T)
+
+
 def unmet(problem: Problem) -> SceneError:
     """That constraints cannot be kept where a problem begins: with numbers whose digits end before it matters."""
     held, values = _Held(problem.model, np.array(problem.parameters)), np.array(problem.values)
@@ -178,14 +185,20 @@ class _Held:
             v = v - _answer(mass, rows, self.slips(q, v))
         return v
 
+    def scales(self, q: Floats) -> Floats:
+        """What brings the diagonal of AM⁻¹Aᵀ to 1 from both sides: shape (m,)."""
+        return _scales(self._share(q))
+
     def shares(self, q: Floats) -> tuple[Floats, Floats]:
         """The eigenvalues of AM⁻¹Aᵀ scaled to a unit diagonal, rising, shape (m,), and its eigenvectors, (m, m)."""
-        mass, rows = self._parts(q)
-        share = rows @ _solved(mass, rows.T)
-        scales = np.sqrt(np.maximum(share.diagonal(), 0.0))
-        inverse = np.divide(1.0, scales, out=np.zeros_like(scales), where=scales > 0.0)
+        share = self._share(q)
+        inverse = _scales(share)
         values, vectors = np.linalg.eigh(share * inverse * inverse[:, None])
         return values, vectors
+
+    def _share(self, q: Floats) -> Floats:
+        mass, rows = self._parts(q)
+        return np.asarray(rows @ _solved(mass, rows.T))
 
     def rank_around(self, q: Floats) -> int:
         """The largest number of independent constraints in consistent positions around one."""
@@ -196,6 +209,12 @@ class _Held:
             if np.isfinite(found).all():
                 ranks.append(int(np.count_nonzero(self.shares(found)[0] > SMALLEST_SHARE)))
         return max(ranks, default=0)
+
+
+def _scales(share: Floats) -> Floats:
+    """What brings a diagonal to 1 from both sides, 0 where it is 0: shape (m,)."""
+    own = np.sqrt(np.maximum(share.diagonal(), 0.0))
+    return np.divide(1.0, own, out=np.zeros_like(own), where=own > 0.0)
 
 
 def _solved(mass: Floats, right: NDArray[np.float64]) -> Floats:
@@ -210,7 +229,6 @@ def _answer(mass: Floats, rows: Floats, right: Floats) -> Floats:
     """The shortest x in the metric of M with A x = `right`: M⁻¹Aᵀ(AM⁻¹Aᵀ)⁺ right."""
     responses = _solved(mass, rows.T)
     share = rows @ responses
-    scales = np.sqrt(np.maximum(share.diagonal(), 0.0))
-    inverse = np.divide(1.0, scales, out=np.zeros_like(scales), where=scales > 0.0)
+    inverse = _scales(share)
     scaled = np.linalg.pinv(share * inverse * inverse[:, None], rcond=SMALLEST_SHARE, hermitian=True)
     return np.asarray(responses @ (inverse * (scaled @ (inverse * right))))

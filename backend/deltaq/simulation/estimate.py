@@ -16,6 +16,7 @@ import numpy as np
 from ..model.model import DISTURBANCE
 from .derivatives import accelerations
 from .event import Approach, EventOccurrence, event_values
+from .held_rounding import held_rounding
 from .problem import Floats, Problem, Stretch
 from .reactions import reactions_along
 from .run import Run
@@ -73,7 +74,7 @@ def estimate(problem: Problem, coarse: Run, fine: Run, factor: float) -> Estimat
     floor, sizes = _rounding_floor(problem, times, fine), np.abs(states[:n])
     ones = np.maximum(1.0, sizes)
     errors = _known(np.maximum(spread[:n], floor * ones))
-    horizon = _horizon(problem, times, errors, sizes, floor)
+    horizon = _horizon(problem, times, errors, sizes, np.maximum(floor, held_rounding(problem, times, states.T)))
     if horizon is not None:
         # Beyond the horizon both runs are wrong, and their difference may shrink by chance.
         late = times >= horizon
@@ -344,7 +345,7 @@ def _windowed(window: Floats, width: int) -> Floats:
 def _horizon(problem: Problem, times: Floats, errors: Floats, sizes: Floats, floor: Floats) -> float | None:
     """The first time at which the error of a coordinate is as large as the coordinate, or a sizeable angle.
 
-    A coordinate that never exceeds the floor of rounding is zero: nothing of it can be lost.
+    A coordinate that never exceeds the floor of rounding, shape (n or 1, samples), is zero: nothing of it can be lost.
     """
     scale = _sizes(problem, sizes)
     lost = ((errors >= LOST * scale) & (scale > floor)).any(axis=0)

@@ -9,6 +9,7 @@ from functools import cached_property
 import numpy as np
 
 from ..model.modes import Modes
+from .kernels.motion import SMALLEST_SHARE
 from .problem import Floats, Problem
 
 TOUCHING = 1e-11  # a gap, relative to the coordinates
@@ -114,14 +115,17 @@ class ModeState:
     def moved_by(self, forces: Floats, bends: Floats | None = None) -> Floats:
         """x of M x = forces + Aᵀλ, A x = bends (0 if not given): what forces, or impulses, do to q̈, or to q̇.
 
-        `forces` and what is returned have shape (n,), `bends` shape (m,).
+        `forces` and what is returned have shape (n,), `bends` shape (m,). Rows that follow from others do so but for
+        rounding, of which nothing is to be made.
         """
         rows, count = self.kept[0], len(self.kept[0])
         if not count:
             return np.asarray(np.linalg.solve(self.mass, forces))
-        matrix = np.block([[self.mass, rows.T], [rows, np.zeros((count, count))]])
-        right = np.concatenate([forces, np.zeros(count) if bends is None else bends])
-        return np.asarray(np.linalg.lstsq(matrix, right, rcond=None)[0][: len(self.q)])
+        scale = np.abs(self.mass).max() / (np.abs(rows).max() or 1.0)
+        matrix = np.block([[self.mass, scale * rows.T], [scale * rows, np.zeros((count, count))]])
+        right = np.concatenate([forces, np.zeros(count) if bends is None else scale * bends])
+        nothing = None if self.problem.rank == count else SMALLEST_SHARE
+        return np.asarray(np.linalg.lstsq(matrix, right, rcond=nothing)[0][: len(self.q)])
 
     @cached_property
     def accelerations(self) -> Floats:

@@ -20,7 +20,7 @@ STEP_LIMIT = 2_000_000
 class Moved:
     """What was added to the values and rates wanted, of each free coordinate, so that all constraints are kept.
 
-    `undetermined` are the multipliers that are not unique.
+    `undetermined` are the multipliers, and the reactions of what is released, that are not unique.
     """
 
     values: tuple[float, ...]

@@ -2,11 +2,32 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 
+from .consistency import SHARES, idle_multipliers
 from .constraints import Reactions, settled
 from .derivatives import accelerations
-from .problem import Floats, Problem, Stretch, numbers_of_stretches
+from .problem import Floats, Problem, Released, Stretch, numbers_of_stretches
+
+
+def releasing(problem: Problem, released: Released) -> Problem:
+    """The problem that is asked what holds something; not unique is what changes with multipliers without effect.
+
+    A guide that holds an angle which rods hold as well takes any part of it.
+    """
+    moved, asked = problem.moved, replace(problem, released=released)
+    if moved is None or not moved.undetermined:
+        return asked
+    idle = idle_multipliers(problem)
+    held = np.vstack([np.zeros(idle.shape[1]), idle])
+    states = np.tile(problem.state[: 2 * problem.degrees], (len(held), 1))
+    given = problem.inputs(np.zeros(len(held)), states)
+    table = released.function.table(np.hstack([given, np.zeros((len(held), problem.degrees)), held]))
+    loose = (np.abs(table[1:] - table[0]) > SHARES * np.abs(idle).max(axis=1)[:, None]).any(axis=0)
+    names = [name for name, is_loose in zip(released.names, loose, strict=True) if is_loose]
+    return replace(asked, moved=replace(moved, undetermined=(*moved.undetermined, *names)))
 
 
 def reactions_at(problem: Problem, times: Floats, states: Floats) -> tuple[Floats, Reactions]:

@@ -36,6 +36,7 @@ from .mode_state import TOUCHING
 from .observation import observed
 from .outcome import Outcome
 from .problem import Floats, Problem, Released
+from .reactions import releasing
 from .request import Request, read_request
 from .rounding import short
 from .run import Steps
@@ -90,7 +91,7 @@ def _run(document: Mapping[str, object]) -> Document:
         require_no_event(request.scene, problem)
     if request.release:
         require_one_mode(request.scene)
-        problem = replace(problem, released=Released(request.release, reactions(request.scene, request.release)))
+        problem = releasing(problem, Released(request.release, reactions(request.scene, request.release)))
     choice = choose(request.method, request.scene, problem, request.step, request.tolerance)
     return _simulated(request, choice, problem, compile_time)
 

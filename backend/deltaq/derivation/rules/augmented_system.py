@@ -24,7 +24,7 @@ RULE = "augmented-system"
 
 
 def apply(system: System) -> Step:
-    """All laws in one line, and M, A, f and γ written out."""
+    """All laws in one line, and M, A, f and γ written out; rows of A that depend on others leave λ open."""
     laws = [_law(system, q) for q in system.free] + [_rate_of(system, index) for index in range(len(system.conditions))]
     right = [outside(system, q) for q in system.free] + [Explicit(system.zero)] * len(system.conditions)
     unknown = column((*map(system.acceleration, system.free), *(-each for each in system.multipliers)))
@@ -40,7 +40,8 @@ def apply(system: System) -> Step:
     )
     sources = (*system.body_sources, *(f"load:{load}" for load in system.load_names), *system.constraint_sources)
     premises = tuple(f"{RATES}:{condition.source}" for condition in system.conditions)
-    return Step(RULE, "", lines, sources, premises=(*(f"equation:{q}" for q in system.free), *premises))
+    about = {"outcome": "dependent" if system.scene.is_redundant else "text"}
+    return Step(RULE, "", lines, sources, about, premises=(*(f"equation:{q}" for q in system.free), *premises))
 
 
 def augmented_matrix(system: System) -> sp.ImmutableMatrix:

@@ -25,6 +25,7 @@ ATTEMPTS = 40
 ITERATIONS = 60
 REACH = 0.15  # from the initial values, relative where these are large
 EXACT = 1e-13
+LEAST = 1e-13  # of the squares of slopes that depend on one another
 
 Row = list[float]
 
@@ -109,21 +110,24 @@ def _states(solution: Solution) -> tuple[dict[sp.Symbol, int], tuple[Row, ...]]:
     further = compiled_together(moving, symbols)
     places = {model.acceleration(q): len(known) + i for i, q in enumerate(free[: len(moving)])}
 
-    def moved() -> Iterator[Row]:
+    def moved(reach: float) -> Iterator[Row]:
         for _, sense in zip(range(ATTEMPTS), cycle((1.0, -1.0)), strict=False):
-            bent = _moved(_start(solution, source, sense), positions, known[: len(free)], symbols)
-            kept = bent and _moved(bent, rates, known[len(free) : 2 * len(free)], symbols)
+            start, least = _start(solution, source, sense, reach), LEAST if model.scene.is_redundant else 0.0
+            bent = _moved(start, positions, known[: len(free)], symbols, least)
+            kept = bent and _moved(bent, rates, known[len(free) : 2 * len(free)], symbols, least)
             if kept:
                 yield [*kept, *further(kept)]
 
-    return {**symbols, **places}, tuple(islice(moved(), STATES))
+    # Rods too many may fit with the scene's own parameters only.
+    found_states = tuple(islice(moved(REACH / 3), STATES)) or tuple(islice(moved(0.0), STATES))
+    return {**symbols, **places}, found_states
 
 
 def _parameters(solution: Solution) -> list[str]:
     return [parameter.name for parameter in solution.scene.parameters]
 
 
-def _start(solution: Solution, source: random.Random, sense: float) -> Row:
+def _start(solution: Solution, source: random.Random, sense: float, reach: float) -> Row:
     """Near the scene's own initial values and parameters: elsewhere a linkage may not close.
 
     Rates are near its own or, for `sense` −1, near those of the way back: |ṙ| and √(ẋ² + ẏ²) are no rates.
@@ -131,14 +135,18 @@ def _start(solution: Solution, source: random.Random, sense: float) -> Row:
     scene = solution.scene
     positions = [c.value + REACH * (1 + abs(c.value)) * source.uniform(-1, 1) for c in scene.free]
     rates = [sense * c.rate + source.uniform(-1, 1) for c in scene.free]
-    parameters = [p.value * (1 + REACH * source.uniform(-1, 1) / 3) for p in scene.parameters]
+    parameters = [p.value * (1 + reach * source.uniform(-1, 1)) for p in scene.parameters]
     return [*positions, *rates, source.uniform(0, 1), *parameters]
 
 
 def _moved(
-    state: Row, conditions: Sequence[sp.Expr], by: Sequence[sp.Symbol], symbols: dict[sp.Symbol, int]
+    state: Row, conditions: Sequence[sp.Expr], by: Sequence[sp.Symbol], symbols: dict[sp.Symbol, int], least: float
 ) -> Row | None:
-    """The state with these symbols changed, each time by the least change, until the conditions are zero."""
+    """The state with these symbols changed, each time by the least change, until the conditions are zero.
+
+    Where some of them follow from others the changes are damped, by `least` of the slopes at least (Levenberg and
+    Marquardt).
+    """
     if not conditions:
         return state
     slopes = [condition.diff(symbol) for condition in conditions for symbol in by]
@@ -151,8 +159,10 @@ def _moved(
         if max(map(abs, values[:count])) < EXACT:
             return kept
         matrix = sp.Matrix(count, len(by), values[count:])
-        normal = matrix * matrix.T
-        if abs(normal.det()) < EXACT:
+        off = sum(value * value for value in values[:count])
+        damping = max(off, least * float((matrix * matrix.T).trace())) if least else 0.0
+        normal = matrix * matrix.T + damping * sp.eye(count)
+        if not least and abs(normal.det()) < EXACT:
             return None
         change = matrix.T * normal.LUsolve(sp.Matrix(values[:count]))
         for symbol, step in zip(by, change, strict=True):
