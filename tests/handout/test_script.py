@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 import pytest
 from tests.derivation.scenes import constrained
+from tests.simulation.constrained import G, platform
 
 from deltaq.errors import RequestError
 from deltaq.handout.script import comment, script
@@ -74,6 +75,19 @@ def test_program_of_a_scene_with_constraints_keeps_them(tmp_path: Path) -> None:
     program = executed(script(start, "en", T_END), tmp_path)
     times, q, v = program["solve"]()
     assert np.abs(v[1] * np.cos(q[2]) - v[0] * np.sin(q[2])).max() < 1e-14  # though the start was not so
+
+
+@pytest.mark.parametrize("rods", [2, 3, 4])
+@pytest.mark.parametrize("begin", [(0.6, -0.8), (0.7, -0.9)], ids=["fits", "is moved"])
+def test_program_of_rods_that_follow_from_others(begin: tuple[float, float], rods: int, tmp_path: Path) -> None:
+    """A platform swings as a pendulum: E = m (v²/2 + g y), and all rods together pull as that of the pendulum does."""
+    program = executed(script(platform(rods, begin=begin), "en", T_END), tmp_path)
+    times, q, v = program["solve"]()
+    assert np.abs(np.hypot(*q[:2]) - 1.0).max() < 1e-14
+    assert np.abs(q[2]).max() < 1e-13
+    np.testing.assert_allclose(0.5 * (v[:2] ** 2).sum(axis=0) + G * (q[1] - q[1, 0]), 0.0, atol=1e-10)
+    pull = 2.0 * ((v[:2] ** 2).sum(axis=0) - G * q[1])
+    np.testing.assert_allclose(program["multipliers"](times, q, v).sum(axis=0), pull, atol=1e-8)
 
 
 @pytest.mark.one_in(2)

@@ -327,9 +327,19 @@ WRONG = [
         )
     ),
     pytest.param(
-        put("/events", [{"name": "slack", "value": "g"}] * 2),
+        put("/events", [{"name": "slack", "value": "g"}] * 3),
         Problem("duplicate-name", "/events/1/name", parameters={"name": "slack"}),
-        id="two events of one name",
+        id="three events of one name",
+    ),
+    pytest.param(
+        put("/points/1", {"name": "bob", "position": ["0", "0"]}),
+        Problem("duplicate-name", "/bodies/0/name", parameters={"name": "bob"}),
+        id="a point and a body of one name",
+    ),
+    pytest.param(
+        put("/loads", [{"kind": "gravity", "name": "weight", "acceleration": ["0", "-g"]}] * 2),
+        Problem("duplicate-name", "/loads/1/name", parameters={"name": "weight"}),
+        id="two loads of one name",
     ),
     pytest.param(put("/dimension", 4), Problem("wrong-space", "/dimension"), id="four dimensions"),
     pytest.param(put("/dimension", True), Problem("not-an-integer", "/dimension"), id="dimension a flag"),

@@ -169,7 +169,9 @@ class Audit:
         """
         model, n = self.problem.model, self.problem.degrees
         table = model.motion.table(rows)
-        of_motion, of_constraints = sensitivities(model.layout, table, np.maximum(1.0, np.abs(rows[:, :n])))
+        of_motion, of_constraints = sensitivities(
+            model.layout, table, np.maximum(1.0, np.abs(rows[:, :n])), self.problem.rank
+        )
         guides = np.repeat([[self._per_span * self._per_span, self._per_span]], len(model.layout.guided), axis=1)
         found = np.hstack([of_motion, np.repeat(guides, len(rows), axis=0), of_constraints])
         return np.asarray(np.nan_to_num(found, nan=np.finfo(float).max, posinf=np.finfo(float).max))

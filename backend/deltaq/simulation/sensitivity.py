@@ -11,12 +11,14 @@ import numpy as np
 from ..model.model import Layout
 from .problem import Floats
 
+DEPENDENT = 1e-9  # of the largest singular value of K: what rows that follow from others have but for rounding
 
-def sensitivities(layout: Layout, table: Floats, sizes: Floats) -> tuple[Floats, Floats]:
+
+def sensitivities(layout: Layout, table: Floats, sizes: Floats, rank: int) -> tuple[Floats, Floats]:
     """By M (packed triangle) and f, shape (states, n (n + 1)/2 + n); by A and γ, shape (states, m n + m).
 
     `table`, shape (states, outputs), is what the model says of some states; a change of qᵢ counts relative to `sizes`,
-    shape (states, n).
+    shape (states, n). `rank` constraints are independent.
     """
     n, m = layout.degrees, len(layout.multipliers)
     rows, columns = np.tril_indices(n)
@@ -28,7 +30,7 @@ def sensitivities(layout: Layout, table: Floats, sizes: Floats) -> tuple[Floats,
         jacobian = table[:, first : first + m * n].reshape(-1, m, n)
         matrix[:, n:, :n], matrix[:, :n, n:] = jacobian, -jacobian.transpose(0, 2, 1)
         right = np.hstack([right, table[:, first + m * n : first + m * n + m]])
-    inverse = _inverse(matrix)
+    inverse = _inverse(matrix) if rank == m else _inverse_of_independent(matrix)
     with np.errstate(invalid="ignore"):
         weights = (inverse[:, :n] / sizes[:, :, None]).sum(axis=1)
         found = np.nan_to_num(np.abs(inverse @ np.abs(right[:, :, None]))[:, :, 0], nan=0.0)
@@ -38,6 +40,13 @@ def sensitivities(layout: Layout, table: Floats, sizes: Floats) -> tuple[Floats,
         )
         of_rows = weights[:, None, :n] * multipliers[:, :, None] + weights[:, n:, None] * bends[:, None, :]
     return np.hstack([of_mass, weights[:, :n]]), np.hstack([of_rows.reshape(len(table), m * n), weights[:, n:]])
+
+
+def _inverse_of_independent(matrix: Floats) -> Floats:
+    """The same where constraints follow from others, for the least λ; infinite where K is not finite."""
+    inverse, known = np.full(matrix.shape, np.inf), np.isfinite(matrix).all(axis=(1, 2))
+    inverse[known] = np.abs(np.linalg.pinv(matrix[known], rcond=DEPENDENT))
+    return inverse
 
 
 def _inverse(matrix: Floats) -> Floats:

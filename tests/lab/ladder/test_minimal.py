@@ -11,6 +11,7 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 from tests.lab.ladder.climbing import climbed
+from tests.simulation.constrained import G, platform
 
 from deltaq.lab.ladder.ending import known
 from deltaq.lab.ladder.measurement import full_run, seen
@@ -198,6 +199,28 @@ def test_a_form_that_is_exact_is_integrated_and_another_is_not() -> None:
     symbols = Symbols.of(disc("dot(s) = 0", begin))
     there = bent[0].subs({symbols.values["s"]: 2.0, symbols.values["phi"]: 0.5})
     assert float(there) == pytest.approx(2.0 + 2.0 - (0.7 + 0.49 * 0.3))
+
+
+@pytest.mark.parametrize("rods", [3, 4])
+def test_constraints_that_follow_from_others_need_not_be_solved(rods: int) -> None:
+    """A platform on parallel rods is a pendulum in its angle: φ̈ = −g sin φ."""
+    scene = platform(rods)
+    below = in_minimal_coordinates(scene, 2.0).scene
+    assert (len(below.free), len(below.constraints), scene.degrees_of_freedom) == (1, 0, 1)
+    exact = solve_ivp(
+        lambda _, y: [y[1], -G * math.sin(y[0])], (0.0, 2.0), [math.asin(0.6), 0.0], rtol=1e-12, atol=1e-13
+    )
+    run = simulate(problem_of(below, 2.0, 21), get_method("dop853"), tolerance=1e-10)
+    assert abs(run.values[-1, 0]) == pytest.approx(abs(exact.y[0, -1]), abs=1e-9)
+
+
+def test_multipliers_that_are_not_unique_are_held_to_nothing() -> None:
+    pair = beside(platform(3), 2.0, 1e-8, FLAG)
+    assert pair is not None
+    found = compared(pair, FLAG)
+    assert found is not None
+    assert (found.errors, found.estimates) == ({}, {})
+    assert found.apart.max() < 1e-6
 
 
 @pytest.mark.parametrize(

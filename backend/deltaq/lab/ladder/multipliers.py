@@ -23,6 +23,8 @@ from .metric import mass_matrices
 from .minimal import Minimal, minimal
 from .simplification import Motion
 
+DEPENDENT = 1e-9  # of the largest singular value of A: what constraints that follow from others have but for rounding
+
 
 @dataclass(frozen=True)
 class Beside:
@@ -44,8 +46,8 @@ class Beside:
 class Comparison:
     """At `times`: the largest difference `apart` of a coordinate and its `estimate`, the largest |g| (`gaps`).
 
-    `errors` and `estimates` are those of each multiplier, by name, as parts of the largest value that it has: shape
-    (samples,) each.
+    `errors` and `estimates` are those of each multiplier that is unique, by name, as parts of the largest value that it
+    has: shape (samples,) each.
     """
 
     times: Floats
@@ -92,14 +94,14 @@ def compared(pair: Beside, cancelled: Flag) -> Comparison | None:
     doubts = np.zeros_like(found) if doubts is None else doubts[:count]
     shown = slice(0, count, max(1, count // SHOWN))
     estimate = trajectory.estimate.errors[:count] + exact.trajectory.estimate.errors[:count]
-    names = pair.run.problem.model.layout.multipliers
+    names = _unique(pair.run.problem)
     return Comparison(
         times[:count][shown],
         _apart(pair.full, q)[shown],
         estimate[shown],
         trajectory.reactions.gaps[:count][shown],
-        {name: (np.abs(found - truth) / sizes)[shown, k] for k, name in enumerate(names)},
-        {name: (doubts / sizes)[shown, k] for k, name in enumerate(names)},
+        {name: (np.abs(found - truth) / sizes)[shown, k] for k, name in names.items()},
+        {name: (doubts / sizes)[shown, k] for k, name in names.items()},
     )
 
 
@@ -112,8 +114,14 @@ def _apart(full: Yardstick, values: Floats) -> Floats:
     return np.asarray(np.abs(apart - turns).max(axis=1))
 
 
+def _unique(problem: Problem) -> Mapping[int, str]:
+    """The multipliers that constraints leave no choice of, by number."""
+    unknown = problem.moved.undetermined if problem.moved else ()
+    return {k: name for k, name in enumerate(problem.model.layout.multipliers) if name not in unknown}
+
+
 def _multipliers(problem: Problem, times: Floats, states: Floats, bends: Floats) -> Floats:
-    """λ of M q̈ − f = Aᵀλ, by least squares: shape (samples, m). `bends` are q̈, shape (samples, n)."""
+    """λ of M q̈ − f = Aᵀλ, the least by least squares: shape (samples, m). `bends` are q̈, shape (samples, n)."""
     n, layout = problem.degrees, problem.model.layout
     count, first = len(layout.multipliers), n * (n + 1) // 2
     table = problem.model.motion.table(problem.inputs(times, states))
@@ -121,4 +129,5 @@ def _multipliers(problem: Problem, times: Floats, states: Floats, bends: Floats)
     begin = first + n + (n + 1 if layout.is_powered else 0)
     rows = table[:, begin : begin + count * n].reshape(-1, count, n)
     held = np.einsum("tij,tj->ti", masses, bends) - forces
-    return np.stack([np.linalg.lstsq(row.T, each, rcond=None)[0] for row, each in zip(rows, held, strict=True)])
+    nothing = None if problem.rank == count else DEPENDENT
+    return np.stack([np.linalg.lstsq(row.T, each, rcond=nothing)[0] for row, each in zip(rows, held, strict=True)])
