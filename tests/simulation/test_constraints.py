@@ -30,6 +30,7 @@ from deltaq.model.constraints import ConstraintEquations
 from deltaq.model.equations import equations
 from deltaq.model.model import build
 from deltaq.simulation.consistency import consistent
+from deltaq.simulation.constraints import settled
 from deltaq.simulation.driver import simulate
 from deltaq.simulation.library import get_method, method_ids
 from deltaq.simulation.problem import Floats, Problem
@@ -158,6 +159,17 @@ def test_a_seat_on_parallel_rods_swings_as_a_pendulum(method: str, tolerance: fl
     true = np.column_stack([np.sin(angle), -np.cos(angle), np.zeros_like(angle)])
     assert found.estimate is not None
     assert (np.abs(found.values - true).max(axis=1) <= found.estimate.errors + 1e-14).all()
+
+
+def test_rates_that_are_but_rounding_lose_no_sample() -> None:
+    """Of a seat that turns by less than rounding, what is left of its rate may be halved by each correction."""
+    source, count = np.random.default_rng(2), 20_000
+    angle, rate = source.uniform(-0.64, 0.64, count), source.uniform(-3.0, 3.0, count)
+    tiny = [source.choice([0.0, 1.0, -1.0], count) * 10.0 ** source.uniform(-22.0, -15.0, count) for _ in range(2)]
+    swinging = [np.sin(angle), -np.cos(angle), tiny[0], np.cos(angle) * rate, np.sin(angle) * rate, tiny[1]]
+    states, reactions = settled(problem_of(swing_seat(), 5.0), np.zeros(count), np.column_stack(swinging))
+    assert len(states) == count
+    assert reactions.gaps.max() < 1e-15
 
 
 def test_the_sleigh_turns_its_spin_into_speed() -> None:

@@ -29,6 +29,7 @@ from .system import (
 
 CORRECTIONS, CLOSE = 12, 1e-9  # Newton's corrections of a state; behind one this small, relative to it, comes rounding
 MOST_CORRECTIONS = 40  # of a state that is close, of which rounding takes up to half of each
+SOON = 4  # Newton's corrections that come down to rounding, where they converge
 GRAIN = 2.0**-52  # of the first correction: a coordinate that is zero on the constraints gets no nearer
 STALLED = 0.5  # corrections that are no smaller than this part of the one before are rounding errors, if they are small
 HALVINGS = 26  # of a step in which the constraints seem to turn round
@@ -80,7 +81,7 @@ def project(system: System, h: float) -> int:
         of_gaps, gap_order = system.of_gaps, system.gap_order
         weigh(system, holonomic, of_gaps)
         gap_rank, _ = factor_ranked(of_gaps, gap_order, holonomic)
-    before, first = np.inf, 0.0
+    before, first, is_settled = np.inf, 0.0, False
     for tries in range(MOST_CORRECTIONS):
         read_gaps(system)
         relative, absolute = 0.0, 0.0
@@ -101,8 +102,11 @@ def project(system: System, h: float) -> int:
             return FINE
         if tries + 1 >= CORRECTIONS and absolute > CLOSE:
             return NEWTON_FAILED
+        # What converges so fast is on the constraints; halving what is left of rates that are but rounding takes longer
+        # than there are tries. Next to a fork all corrections are halved, from the first on.
+        is_settled = is_settled or (tries < SOON and absolute <= GRAIN)
         before = absolute
-    return NEWTON_FAILED
+    return FINE if is_settled else NEWTON_FAILED
 
 
 @inline
