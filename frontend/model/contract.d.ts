@@ -2707,6 +2707,19 @@ export interface components {
             };
         };
         /**
+         * Density
+         * @description How the runs are spread over a coordinate at each sample: ∫ ρ dx = 1 over those that reached it.
+         */
+        Density: {
+            /** @description of intervals of the same width, in order; they hold all runs at all times */
+            edges: components["schemas"]["Column"];
+            /**
+             * Values
+             * @description for each sample a column of ρ, an entry for each interval
+             */
+            values: components["schemas"]["Column"][];
+        };
+        /**
          * DerivationAnswer
          * @description The derivation, and its results as plain expressions and as LaTeX.
          */
@@ -3360,6 +3373,13 @@ export interface components {
             } | null;
             quantiles?: components["schemas"]["Quantiles"] | null;
             /**
+             * Density
+             * @description over time, by coordinate
+             */
+            density?: {
+                [key: string]: components["schemas"]["Density"];
+            } | null;
+            /**
              * Columns
              * @default numbers
              * @enum {string}
@@ -3396,7 +3416,8 @@ export interface components {
          *       "scene": "double-pendulum",
          *       "statistics": [
          *         "mean",
-         *         "quantiles"
+         *         "quantiles",
+         *         "density"
          *       ],
          *       "t_end": 2,
          *       "vary": {
@@ -3483,10 +3504,10 @@ export interface components {
             tolerance?: number;
             /**
              * Statistics
-             * @description over the runs that came so far: mean, or quantiles at 5, 25, 50, 75 and 95 %
+             * @description over the runs that came so far: mean, quantiles at 5, 25, 50, 75 and 95 %, or their density
              * @example []
              */
-            statistics?: ("mean" | "quantiles")[];
+            statistics?: ("mean" | "quantiles" | "density")[];
             /**
              * Runs
              * @description whether the coordinates of every run are wanted

@@ -17,6 +17,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from deltaq.api.jobs import ensemble
+from deltaq.contract.ensemble import EnsembleRequest
 from deltaq.lab import engine as engine_module
 from deltaq.lab import flips
 from deltaq.lab.engine import SCHEDULER, engine
@@ -168,3 +170,19 @@ def test_cluster_rests_when_the_map_is_given_up(cluster: list[subprocess.Popen[b
         assert reached(os.environ[SCHEDULER], lambda state: state[0] > 2 and state[1] == 2, 60.0)
     assert reached(os.environ[SCHEDULER], lambda state: state == (0, 0), 20.0)
     del parts
+
+
+@needs_dask
+@pytest.mark.slow
+@pytest.mark.filterwarnings("default")
+def test_ensemble_on_a_cluster_is_the_same(
+    cluster: list[subprocess.Popen[bytes]], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    values = {"from": 0.5, "to": 1.5, "count": 3000}
+    asked = {"scene": "pendulum", "t_end": 1.0, "samples": 3, "vary": {"initial.phi.value": values}}
+    request = EnsembleRequest.model_validate(asked).model_dump() | {"lang": "en"}
+    found = ensemble({"request": request})
+    monkeypatch.delenv(SCHEDULER)
+    here = ensemble({"request": request})
+    assert all(process.poll() is None for process in cluster)
+    assert {**found, "wall_time": 0.0} == {**here, "wall_time": 0.0}

@@ -3,18 +3,22 @@
 from __future__ import annotations
 
 from base64 import b64decode
+from concurrent.futures import ProcessPoolExecutor
+from multiprocessing import get_context
 from typing import Any
 
 import numpy as np
 import pytest
 from scipy.integrate import quad
 from scipy.special import ellipj
+from scipy.stats import norm
 from tests.simulation.scenes import document, oscillator
 
 from deltaq.errors import Problem, RequestError
 from deltaq.mechanics.document import read_scene
 from deltaq.mechanics.library import load_scene
 from deltaq.mechanics.writing import write_scene
+from deltaq.simulation import ensemble as engine
 from deltaq.simulation.driver import simulate
 from deltaq.simulation.ensemble import Ensemble, in_lanes, needs_single_runs, run_ensemble
 from deltaq.simulation.ensemble_answer import run
@@ -273,6 +277,57 @@ def test_statistics_of_a_cloud() -> None:
     median = found["quantiles"]["values"]["x"][found["quantiles"]["levels"].index(0.5)]
     np.testing.assert_allclose(median, np.median(values) * np.cos([0.0, 1.0, 2.0]), atol=1e-10)
     assert again["mean"] == found["mean"]
+
+
+def test_the_density_of_a_cloud_over_time() -> None:
+    """x = x₀ cos t of normal x₀ is normal, with mean and deviation times |cos t|; each density is one of all runs."""
+    drawn = {"initial.x.value": {"normal": [3.0, 0.5], "count": 4000, "seed": 5}}
+    found = ask(vary=drawn, statistics=["density"], runs=False)["density"]["x"]
+    edges, values = np.array(found["edges"]), np.array(found["values"])
+    assert edges.shape == (65,)
+    assert values.shape == (3, 64)
+    np.testing.assert_allclose((values * np.diff(edges)).sum(axis=1), 1.0, rtol=1e-12)
+    for row, time in zip(values, (0.0, 1.0, 2.0), strict=True):
+        spread = norm(3.0 * np.cos(time), 0.5 * abs(np.cos(time)))
+        parts, true = np.cumsum(row * np.diff(edges)), spread.cdf(edges[1:])
+        assert np.abs(parts - true).max() < 1.63 / np.sqrt(4000)  # Kolmogorov, 1 %
+
+
+def test_a_density_of_runs_that_are_all_alike_and_of_some_that_end_early() -> None:
+    alike = ask(vary={"initial.x.value": [0.0, 0.0]}, statistics=["density"])["density"]["x"]
+    np.testing.assert_allclose((np.array(alike["values"]) * np.diff(alike["edges"])).sum(axis=1), 1.0, rtol=1e-9)
+    scene = write_scene(oscillator("m*x^3", x=0.1, u=0.0))
+    found = ask(scene=scene, t_end=3.0, vary={"initial.x.value": [0.1, 5.0]}, statistics=["density"])
+    rows = np.array(found["density"]["x"]["values"])
+    np.testing.assert_allclose((rows * np.diff(found["density"]["x"]["edges"])).sum(axis=1), 1.0, rtol=1e-9)
+    assert (rows > 0.0).sum(axis=1).tolist() == [2, 1, 1]
+
+
+def test_what_a_motion_tells_does_not_depend_on_others_that_missed_their_tolerance() -> None:
+    """Runs that missed it are repeated by finer steps: as fine as each needs, not as the worst of all does."""
+    problem = problem_of(load_scene("double-pendulum"), 12.0, 13)
+    starts = np.array([[0.4, 0.3, 0.0, 0.0], [2.9, 3.0, 0.0, 0.0], [1.9, 2.0, 0.0, 0.0], [2.4, 1.0, 3.0, 0.0]])
+    ensemble = Ensemble(problem, starts, np.repeat([problem.parameters], 4, axis=0))
+    together = run_ensemble(ensemble, 1e-9)
+    assert len(set(together.steps.tolist())) > 1
+    for index in range(4):
+        alone = run_ensemble(ensemble.chosen(np.array([index])), 1e-9)
+        np.testing.assert_array_equal(together.values[index], alone.values[0])
+        np.testing.assert_array_equal(together.errors[index], alone.errors[0])
+        assert together.outcomes[index] == alone.outcomes[0]
+
+
+def test_parts_on_other_processes_give_the_same_answer(monkeypatch: pytest.MonkeyPatch) -> None:
+    """What is sent to a cluster is pickled there and back."""
+    monkeypatch.setattr(engine, "OF_CLUSTER", 8)
+    ensemble, done = cloud(problem_of(load_scene("double-pendulum"), 2.0, 5), 20), list[int]()
+    with ProcessPoolExecutor(1, mp_context=get_context("spawn")) as cluster:
+        parts = run_ensemble(ensemble, 1e-9, report=done.append, cluster=cluster)
+    here = run_ensemble(ensemble, 1e-9)
+    assert done == [8, 16, 20]
+    assert parts.outcomes == here.outcomes
+    for name in ("times", "values", "rates", "errors", "worst", "steps"):
+        np.testing.assert_array_equal(getattr(parts, name), getattr(here, name))
 
 
 X, L = "initial.x.value", "parameters.l"

@@ -69,8 +69,9 @@ def simulate_meanwhile(document: Document) -> Document | None:
 
 
 def ensemble(document: Document) -> Document:
-    """Many motions of a scene; what each status that occurs means, said in the language asked for."""
-    answer: Document = import_module("deltaq.simulation.ensemble_answer").run(document["request"])
+    """Many motions of a scene, on a cluster if there is one; what each status that occurs means, in words."""
+    with import_module("deltaq.lab.engine").cluster() as cluster:
+        answer: Document = import_module("deltaq.simulation.ensemble_answer").run(document["request"], cluster=cluster)
     return answer | outcomes_explained(answer.pop("outcomes"), document["request"]["lang"])
 
 

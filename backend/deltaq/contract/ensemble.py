@@ -55,7 +55,7 @@ Variation = Annotated[
     Discriminator(_kind),
 ]
 Quantity = Annotated[str, Field(max_length=160)]
-Statistic = Literal["mean", "quantiles"]
+Statistic = Literal["mean", "quantiles", "density"]
 
 
 class EnsembleRequest(SceneWithInitialValues):
@@ -73,8 +73,10 @@ class EnsembleRequest(SceneWithInitialValues):
     )
     samples: int = Field(51, ge=2, le=2001, description="number of samples, evenly spaced, both ends included")
     tolerance: float = Field(USUAL_TOLERANCE, ge=1e-13, le=1e-1, description="wanted error of the coordinates")
-    statistics: Annotated[tuple[Statistic, ...], items(max_length=2)] = Field(
-        (), description="over the runs that came so far: mean, or quantiles at 5, 25, 50, 75 and 95 %", examples=[[]]
+    statistics: Annotated[tuple[Statistic, ...], items(max_length=3)] = Field(
+        (),
+        description="over the runs that came so far: mean, quantiles at 5, 25, 50, 75 and 95 %, or their density",
+        examples=[[]],
     )
     runs: bool = Field(default=True, description="whether the coordinates of every run are wanted")
     columns: Written = Field("numbers", description="how arrays are written; base64: little-endian doubles")
@@ -92,7 +94,7 @@ class EnsembleRequest(SceneWithInitialValues):
             "t_end": 2.0,
             "samples": 3,
             "runs": False,
-            "statistics": ["mean", "quantiles"],
+            "statistics": ["mean", "quantiles", "density"],
             "vary": {"initial.phi1.value": {"normal": [1.0, 0.01], "count": 40, "seed": 7}},
         },
     )
@@ -119,6 +121,13 @@ class Quantiles(Answer):
     values: dict[str, tuple[Column, ...]] = Field(description="by coordinate, a column for each level")
 
 
+class Density(Answer):
+    """How the runs are spread over a coordinate at each sample: ∫ ρ dx = 1 over those that reached it."""
+
+    edges: Column = Field(description="of intervals of the same width, in order; they hold all runs at all times")
+    values: tuple[Column, ...] = Field(description="for each sample a column of ρ, an entry for each interval")
+
+
 class EnsembleAnswer(Answer):
     """All runs in the order of the values; of a grid the last quantity changes fastest."""
 
@@ -135,5 +144,6 @@ class EnsembleAnswer(Answer):
     steps: tuple[int, ...] = Field(description="of each run")
     mean: dict[str, Column] | None = Field(None, description="over the runs, by coordinate")
     quantiles: Quantiles | None = None
+    density: dict[str, Density] | None = Field(None, description="over time, by coordinate")
     columns: Written = "numbers"
     wall_time: float = Field(description="seconds")

@@ -31,10 +31,20 @@ def engine() -> Iterator[Executor]:
     of the cluster are worked out by another, and the map is the same. When the map is given up, or its process killed,
     the cluster drops the parts that wait, and those under way end if they work `while_wanted`.
     """
+    with cluster() as found:
+        if found is not None:
+            yield found
+            return
+    with ThreadPoolExecutor(os.cpu_count()) as threads:
+        yield threads
+
+
+@contextmanager
+def cluster() -> Iterator[Executor | None]:
+    """The cluster that the environment names, as an executor (see `engine`); None without one that works."""
     client = _cluster()
     if client is None:
-        with ThreadPoolExecutor(os.cpu_count()) as threads:
-            yield threads
+        yield None
         return
     with client:  # all that it asked for is dropped at its end
         yield client.get_executor(retries=RETRIES, pure=False)

@@ -103,6 +103,10 @@ class Model:
         default_factory=dict, init=False, repr=False, compare=False
     )
 
+    def __getstate__(self) -> dict[str, object]:
+        """All but what was made along the way: code for series has addresses of this process."""
+        return {**self.__dict__, "_made": {}, "_latest": {}}
+
     @cached_property
     def observed(self) -> Compiled:
         """E, V and what is drawn; made when first asked for, as all that follows. Raises SceneError as `build` does."""

@@ -7,10 +7,12 @@ step looks at the forces, so that the steps of all are audited; a motion that wa
 
 from __future__ import annotations
 
+import math
 import os
 from collections.abc import Callable
-from concurrent.futures import ThreadPoolExecutor
+from concurrent.futures import Executor, ThreadPoolExecutor
 from dataclasses import dataclass, replace
+from functools import partial
 
 import numpy as np
 from numpy.typing import NDArray
@@ -52,6 +54,7 @@ NEAR, MANY = 5, 1000  # the order of neighbours' series, and the steps up to whi
 # of many with two runs each, some come close to each other by chance.
 BELOW, OF_PAIRS = 1e-2, 2.0
 MOST_DRIVEN = 20_000  # steps that a drive may ask for, up to which motions go side by side
+OF_CLUSTER = 1024  # motions that are worked out together on a cluster
 MESH = GROUP  # ends of steps that are looked at, of each motion: of long ones every second, every fourth …
 GRAIN = 5e-12  # below that local tolerance rounding may do as much as the steps, and the one hide the other
 
@@ -127,34 +130,68 @@ class Sight:
 
 
 def run_ensemble(
-    ensemble: Ensemble, tolerance: float, cancelled: Flag | None = None, report: Callable[[int], None] | None = None
+    ensemble: Ensemble,
+    tolerance: float,
+    cancelled: Flag | None = None,
+    report: Callable[[int], None] | None = None,
+    cluster: Executor | None = None,
 ) -> EnsembleMotion:
     """All motions to a tolerance of their coordinates; `report` hears how many are done.
 
     Scenes whose forces jump, ask for very short steps somewhere, or that have events, are run one by one: `simulate`
-    knows how. So are motions whose steps turn out to be blind.
+    knows how. So are motions whose steps turn out to be blind. Large ones are worked out in parts where there is a
+    `cluster`; each motion is the same there, for none depends on what the others do.
     """
     flag = np.zeros(1, dtype=np.int64) if cancelled is None else cancelled
-    tell = report or (lambda _done: None)
-    largest = largest_step(ensemble)
+    tell, largest, count = report or (lambda _done: None), largest_step(ensemble), len(ensemble)
+    if cluster is None or count <= OF_CLUSTER:
+        return _run_all(ensemble, tolerance, largest, flag, tell)
+    parts = [ensemble.chosen(np.arange(first, min(first + OF_CLUSTER, count))) for first in range(0, count, OF_CLUSTER)]
+    found = list[EnsembleMotion]()
+    for each in cluster.map(partial(_run_all, tolerance=tolerance, largest=largest), parts):
+        found.append(each)
+        tell(sum(len(one.outcomes) for one in found))
+    names = ("values", "rates", "errors", "worst", "steps", "blind")
+    arrays = {name: np.concatenate([getattr(each, name) for each in found]) for name in names}
+    return EnsembleMotion(found[0].times, outcomes=tuple(one for each in found for one in each.outcomes), **arrays)
+
+
+def _run_all(
+    ensemble: Ensemble,
+    tolerance: float,
+    largest: float,
+    flag: Flag | None = None,
+    tell: Callable[[int], None] = lambda _done: None,
+) -> EnsembleMotion:
+    """All motions by steps up to the largest; 0 for those that lanes cannot do."""
+    flag = np.zeros(1, dtype=np.int64) if flag is None else flag
     if largest == 0.0:
         return _one_by_one(ensemble, tolerance, flag, tell)
-    local = _told_apart(AHEAD * tolerance)
-    found = _run(ensemble, Steps(largest, local), tolerance, flag, tell)
+    local = np.full(len(ensemble), _told_apart(AHEAD * tolerance))
+    found = _run(ensemble, Steps(largest, float(local[0])), tolerance, flag, tell)
     for _ in range(ROUNDS - 1):
         is_missed = np.array([each.status == "tolerance_missed" for each in found.outcomes], dtype=np.bool_)
-        missed = np.flatnonzero(is_missed & ~found.blind)
-        if not len(missed) or local <= FINEST_OF_SERIES:
-            break
-        excess = float(np.nanmax(found.worst[missed])) / tolerance
-        local = _told_apart(local * max(SMALLER / excess, SMALLEST))
-        again = _run(ensemble.chosen(missed), Steps(largest, local), tolerance, flag)
-        found = _merged(found, again, missed, again.worst < found.worst[missed])  # not where they come to no end
+        is_missed &= ~found.blind & (local > FINEST_OF_SERIES)
+        for place in np.flatnonzero(is_missed):
+            local[place] = _finer(float(local[place]), float(found.worst[place]) / tolerance)
+        for each in np.unique(local[is_missed]):
+            which = np.flatnonzero(is_missed & (local == each))
+            again = _run(ensemble.chosen(which), Steps(largest, float(each)), tolerance, flag)
+            found = _merged(found, again, which, again.worst < found.worst[which])  # not where they come to no end
     blind = np.flatnonzero(found.blind)
     if not len(blind):
         return found
     alone = _one_by_one(ensemble.chosen(blind), tolerance, flag)
     return _merged(found, alone, blind, np.ones(len(blind), dtype=np.bool_))
+
+
+def _finer(local: float, excess: float) -> float:
+    """The next local tolerance of a motion whose error was so many times too large.
+
+    It is one of a few, so that many motions have the same, and no other motion has a say in it.
+    """
+    wanted = local * max(SMALLER / excess, SMALLEST)
+    return _told_apart(10.0 ** math.floor(math.log10(wanted)))
 
 
 def _told_apart(local: float) -> float:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping
+from concurrent.futures import Executor
 from dataclasses import dataclass, replace
 from time import perf_counter
 
@@ -23,6 +24,7 @@ from .problem import Floats
 from .rounding import rounded, short
 from .service import problem_of, require_no_event
 
+INTERVALS, NARROWEST = 64, 1e-9  # of densities; what they cover at least, over the size of a coordinate
 LEVELS = (0.05, 0.25, 0.5, 0.75, 0.95)
 
 
@@ -34,12 +36,16 @@ class Varied:
     quantities: Mapping[str, Floats]
 
 
-def run(document: Mapping[str, object], report: Callable[[int], None] | None = None) -> Document:
+def run(
+    document: Mapping[str, object],
+    report: Callable[[int], None] | None = None,
+    cluster: Executor | None = None,
+) -> Document:
     """Runs what the request names. Raises InputError for what cannot be read; `report` hears how many runs are done."""
     asked, start = read(EnsembleRequest, document), perf_counter()
     scene = begun_scene(asked)
     varied = varied_of(asked, scene)
-    found = run_ensemble(varied.ensemble, asked.tolerance, report=report)
+    found = run_ensemble(varied.ensemble, asked.tolerance, report=report, cluster=cluster)
     return _answered(asked, scene, varied, found) | {"wall_time": perf_counter() - start}
 
 
@@ -210,4 +216,18 @@ def _statistics(asked: EnsembleRequest, names: list[str], found: EnsembleMotion)
         levels = np.nanquantile(values, LEVELS, axis=0)
         columns = {name: [written(np.ascontiguousarray(row[:, i])) for row in levels] for i, name in enumerate(names)}
         answer["quantiles"] = {"levels": list(LEVELS), "values": columns}
+    if "density" in asked.statistics:
+        answer["density"] = {name: _density(values[:, :, i], written) for i, name in enumerate(names)}
     return answer
+
+
+def _density(values: Floats, written: Callable[[Floats], Column]) -> Document:
+    """Of a coordinate, shape (runs, samples), the runs over their number and the width of an interval."""
+    low, high = float(np.nanmin(values)), float(np.nanmax(values))
+    least = NARROWEST * max(abs(low), abs(high), 1.0)
+    if high - low < least:
+        low, high = low - least, high + least
+    edges = np.linspace(low, high, INTERVALS + 1)
+    columns = (column[np.isfinite(column)] for column in values.T)
+    counts = [np.histogram(column, edges)[0] / (len(column) * (high - low) / INTERVALS) for column in columns]
+    return {"edges": written(edges), "values": [written(each) for each in counts]}
