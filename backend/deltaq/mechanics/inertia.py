@@ -11,15 +11,13 @@ import math
 import random
 from collections.abc import Iterator
 
-import numpy as np
-
 from ..errors import Problem
 from ..language.expression import Expression, expressions_in
 from ..language.floats import evaluate
 from ..language.tree import Node
 from .bodies import Body
 from .kinetics import Distribution, Rotation, Translation
-from .mass import Matrix, Point, motions_matrix, nodes, squares
+from .mass import Matrix, Point, motions_matrix, nodes, squares, squares_of, tensor
 from .material import Material
 from .scene import Scene
 
@@ -42,31 +40,25 @@ def inertia_problems(scene: Scene) -> Iterator[Problem]:
 
 
 def moment_problems(scene: Scene) -> Iterator[Problem]:
-    """Warnings of bodies in space whose principal moments of inertia no distribution of mass has: C > A + B.
+    """Warnings of bodies in space with moments of inertia that no distribution of mass has.
 
-    C = ∫ (x² + y²) dm is at most A + B = C + 2 ∫ z² dm. The equations of motion make sense all the same.
+    ∫ r rᵀ dm = (tr J/2) 1 − J is negative in no direction, so that no principal moment exceeds the sum of the others.
+    The equations of motion make sense all the same.
     Source: Landau, Lifshitz, Mechanics, 3rd ed., §32.
     """
     values = {p.name: p.value for p in scene.parameters} | {c.name: c.value for c in scene.coordinates} | {"t": 0.0}
     for index, body in enumerate(scene.bodies):
         for part in body.kinetics:
-            if isinstance(part, Rotation) and len(part.inertia) == 3:
-                matrix = np.zeros((3, 3))
-                for k, l, entry in part.entries:
-                    matrix[k, l] = matrix[l, k] = evaluate(entry, values)
-                if np.isfinite(matrix).all() and _is_too_much(np.linalg.eigvalsh(matrix).tolist()):
-                    yield _too_large(index, body, np.linalg.eigvalsh(matrix).tolist())
+            if isinstance(part, Rotation) and len(part.inertia) == 3 and _is_of_no_body(tensor(part, values)):
+                told = {"name": body.name}
+                yield Problem("inertia-of-no-body", f"/bodies/{index}/inertia", parameters=told, severity="warning")
 
 
-def _is_too_much(moments: list[float]) -> bool:
-    """Whether the largest of three principal moments, in ascending order, exceeds the sum of the others."""
-    least, middle, most = moments
-    return least >= 0.0 and most > (least + middle) * (1.0 + NOTHING)
-
-
-def _too_large(index: int, body: Body, moments: list[float]) -> Problem:
-    told = {"name": body.name, **{f"moment{k}": f"{moment:.6g}" for k, moment in enumerate(moments, 1)}}
-    return Problem("inertia-of-no-body", f"/bodies/{index}/inertia", parameters=told, severity="warning")
+def _is_of_no_body(moments: Matrix) -> bool:
+    """Whether J itself is sound, and what it follows from is not."""
+    half = 0.5 * sum(moments[k][k] for k in range(len(moments)))
+    spread = [[half * (k == l) - entry for l, entry in enumerate(row)] for k, row in enumerate(moments)]
+    return math.isfinite(half) and squares_of(moments) is not None and squares_of(spread) is None
 
 
 def _varying(scene: Scene) -> Iterator[Problem]:

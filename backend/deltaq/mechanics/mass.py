@@ -74,10 +74,21 @@ def squares(part: Rotation, values: Point) -> list[tuple[float, list[float]]] | 
 
     Source: Golub, Van Loan, Matrix Computations, 4th ed., §4.2.8 (semidefinite systems).
     """
+    return squares_of(tensor(part, values))
+
+
+def tensor(part: Rotation, values: Point) -> Matrix:
+    """Jₖₗ in numbers, all rows."""
     size = len(part.inertia)
-    left = [[0.0] * size for _ in range(size)]
+    found = [[0.0] * size for _ in range(size)]
     for k, l, entry in part.entries:
-        left[k][l] = left[l][k] = evaluate(entry, values)
+        found[k][l] = found[l][k] = evaluate(entry, values)
+    return found
+
+
+def squares_of(matrix: Matrix) -> list[tuple[float, list[float]]] | None:
+    """Those of any symmetric matrix; None where it is not positive semidefinite."""
+    size, left = len(matrix), [list(row) for row in matrix]
     floor = NOTHING * max(map(abs, (entry for row in left for entry in row)), default=0.0)
     found = []
     for k in range(size):
