@@ -40,6 +40,9 @@ KINKS = [
         line(potential("min(k*x, -c*x)"), k=2.0, c=1.0), [("0", "-k", "c", "unstable")], id="the smaller of two slopes"
     ),
     pytest.param(
+        line(potential("k*abs(x - a) + c/(x - a)^2"), k=2.0, c=1.0, a=0.5), [], id="a pole at the kink"
+    ),
+    pytest.param(
         line(potential("k*abs(x^2 - a^2)"), k=2.0, a=0.5),
         [
             ("-Abs(a)", "2*k*Abs(a)", "-2*k*Abs(a)", "stable"),

@@ -262,6 +262,8 @@ class _Line:
                 return None
             told = [[beside(system, force, signs) for force in self.forces] for signs in sides]
             values = [number(force, self._point(x)) for side in told for force in side]
+            if not all(v.is_finite() for v in values):  # a pole lies at the kink
+                return None
             if all(bool(v > NOTHING) for v in values) or all(bool(v < -NOTHING) for v in values):
                 return None
             away = number(told[0][1], self._point(x - NEAR)), number(told[1][0], self._point(x + NEAR))
