@@ -228,12 +228,19 @@ class Watcher:
         find_unsure(audit.tape_arrays, self.ranges, meshes, parameters, audit.limit, self.room, found)
         unsure = np.flatnonzero(found)
         if len(unsure):
-            some, own = meshes.chosen(unsure), parameters[unsure]
-            seeds = audit.seeds(np.hstack([some.states[:, 0], some.times[:, :1], own]))
-            rules, blind = Rules(audit.limit, audit.threshold(tolerance), 1.0), np.zeros(len(unsure), dtype=np.int64)
-            find_blind(audit.tape_arrays, self.ranges, some, own, seeds, rules, self.room, blind)
-            found[unsure] = blind
+            found[unsure] = self.step_by_step(meshes.chosen(unsure), parameters[unsure], tolerance)
         return found > 0
+
+    def step_by_step(self, meshes: Meshes, parameters: Floats, tolerance: float) -> NDArray[np.int64]:
+        """The same without the quick look at whole motions: 1 for one that was blind, shape (motions,).
+
+        `parameters` has shape (motions, parameters).
+        """
+        audit, found = self.audit, np.zeros(len(parameters), dtype=np.int64)
+        seeds = audit.seeds(np.hstack([meshes.states[:, 0], meshes.times[:, :1], parameters]))
+        rules = Rules(audit.limit, audit.threshold(tolerance), 1.0)
+        find_blind(audit.tape_arrays, self.ranges, meshes, parameters, seeds, rules, self.room, found)
+        return found
 
 
 def _columns(size: int) -> tuple[Floats, Floats, Floats]:

@@ -200,9 +200,12 @@ def _told_apart(local: float) -> float:
 
 
 def warm(problem: Problem) -> None:
-    """Compiles the kernel of the lanes, or loads it from the cache on disk."""
+    """Compiles the kernels of the lanes, or loads them from the cache on disk."""
     states, parameters = problem.state[None, : 2 * problem.degrees], np.array(problem.parameters)[None, :]
     run_ensemble(Ensemble(problem, states, parameters), 1e-6)
+    # a motion that is seen through at once leaves the closer look to others
+    mesh = Meshes(np.array([[0.0, problem.t_end]]), np.stack([states, states], axis=1), np.array([[2, 1, 0]]))
+    Audit(problem, get_method("taylor")).watcher(MESH).step_by_step(mesh, parameters, 1e-6)
 
 
 def needs_single_runs(ensemble: Ensemble) -> bool:
