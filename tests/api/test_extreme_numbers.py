@@ -134,6 +134,23 @@ async def test_numbers_that_were_too_much(quick: httpx.AsyncClient, path: str, b
             200,
             id="the value of an event is no number",
         ),
+        pytest.param(
+            "simulations",
+            {
+                "scene": "stick-slip",
+                "t_end": 1.0,
+                "parameters": {"v_0": 2.3e-308, "g": 1.7e308, "v_s": 5e-324},
+                "method": "stormer-verlet",
+            },
+            200,
+            id="friction that is no number",
+        ),
+        pytest.param(
+            "simulations",
+            {"scene": "bouncing-ball", "t_end": 1.0, "parameters": {"g": 9.9e-210, "a": 1.7e308, "omega": 1e-16}},
+            200,
+            id="the energy behind an impact is no number",
+        ),
         pytest.param("simulations", {"scene": "pendulum", "t_end": 5e-324}, 422, id="no part of a span"),
         pytest.param("derivations", {"scene": "base-pendulum", "parameters": {"m": 1e-155}}, 200, id="a root of -0"),
         pytest.param(

@@ -18,6 +18,10 @@ class FrictionForce:
     force: Floats
     largest: Floats
 
+    def first(self, count: int) -> FrictionForce:
+        """The first `count` samples."""
+        return FrictionForce(self.force[:count], self.largest[:count])
+
 
 def friction_along(
     modes: Modes, times: Floats, states: Floats, stretches: tuple[Stretch, ...]

@@ -153,7 +153,7 @@ def _behind(current: ModeState, event: Event, record: _Record, span: float) -> M
         return _End(NO_DIRECTION)
     except SlidingError as sliding:
         return _End(SLIDES, current.modes.name_of(sliding.row))
-    if not behind.is_finite:
+    if behind is None:
         return _End(NOT_FINITE)
     if record.is_crowded(span):
         return _End(CHATTERS, current.modes.name_of_watched(event.index))
@@ -203,11 +203,13 @@ def _fill(record: _Record, times: Floats, event: Event, degrees: int) -> None:
         record.filled += 1
 
 
-def _next(current: ModeState, event: Event, record: _Record) -> ModeState:
-    """The state behind an event; what it is called is recorded, with the energy that it took."""
+def _next(current: ModeState, event: Event, record: _Record) -> ModeState | None:
+    """The state behind an event, None if it exceeds all numbers; its name is recorded, with the energy that it took."""
     n = len(current.q)
     before = replace(current, time=event.time, q=event.state[:n].copy(), v=event.state[n : 2 * n].copy())
     after, name, kind = passed(before, event.index)
+    if not (before.is_finite and after.is_finite):
+        return None
     loss = before.kinetic - after.kinetic if kind in ("impact", "rest", "slide") else 0.0
     reached = record.moved(event, after.time, n)
     record.work += (float(event.state[-1]) if event.state.size > 2 * n else 0.0) - loss

@@ -70,8 +70,9 @@ class ModeState:
 
     @property
     def is_finite(self) -> bool:
-        """Whether places, rates and time are numbers."""
-        return bool(np.isfinite(self.q).all() and np.isfinite(self.v).all() and math.isfinite(self.time))
+        """Whether places, rates, time and kinetic energy are numbers."""
+        is_known = bool(np.isfinite(self.q).all() and np.isfinite(self.v).all() and math.isfinite(self.time))
+        return is_known and math.isfinite(self.kinetic)
 
     @cached_property
     def facts(self) -> Facts:
@@ -150,7 +151,8 @@ class ModeState:
     @property
     def kinetic(self) -> float:
         """½ q̇ᵀ M q̇, up to what does not change at an impact."""
-        return float(0.5 * self.v @ self.mass @ self.v)
+        with np.errstate(over="ignore", invalid="ignore"):  # what that makes of it is asked for
+            return float(0.5 * self.v @ self.mass @ self.v)
 
     def with_flags(self, flags: tuple[float, ...]) -> ModeState:
         """The same state with other rows held."""

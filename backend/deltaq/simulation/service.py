@@ -29,7 +29,7 @@ from .consistency import consistent
 from .derivatives import power
 from .driver import is_suitable, simulate
 from .event import event_values
-from .friction import friction_along
+from .friction import FrictionForce, friction_along
 from .kernels.compiler import MACHINE, MachineCodeNeededError, interpreted, soonest
 from .library import ENSEMBLES, get_method, method_ids
 from .mode_state import TOUCHING
@@ -110,10 +110,12 @@ def _simulated(request: Request, choice: Choice, problem: Problem, compile_time:
     with inside("/scene"):  # where something that is drawn has no value at all
         seen = observed(problem, modes, trajectory.times, states, trajectory.stretches)
     watts = power(problem, trajectory.times, states, trajectory.stretches)
-    known, seen = _finite(trajectory, seen, watts)
-    moved = np.hstack([known.values, known.rates])
-    frictions = friction_along(modes, known.times, moved, known.stretches) if modes else {}
-    return answer(request, choice, problem, known, seen, compile_time, frictions)
+    frictions = friction_along(modes, trajectory.times, states, trajectory.stretches) if modes else {}
+    good = _finite(trajectory, seen, watts, frictions)
+    if good < len(trajectory.times):
+        trajectory, seen = _cut(trajectory, good), _cut_observation(seen, good)
+        frictions = {name: each.first(good) for name, each in frictions.items()}
+    return answer(request, choice, problem, trajectory, seen, compile_time, frictions)
 
 
 def require_one_mode(scene: Scene) -> None:
@@ -206,17 +208,15 @@ def warm(*chosen: str) -> None:
         ensemble.warm(problem_of(load_scene("pendulum"), 0.1, 2))
 
 
-def _finite(trajectory: Trajectory, seen: Observation, watts: Floats) -> tuple[Trajectory, Observation]:
-    """Both as far as everything seen is finite (a position may have a pole where the motion has none), and sums of it
-    are, too.
+def _finite(trajectory: Trajectory, seen: Observation, watts: Floats, frictions: Mapping[str, FrictionForce]) -> int:
+    """The number of first samples at which everything told is finite (a position or a force may have a pole where the
+    motion has none), and sums of it are, too.
     """
     arrays = [trajectory.values, trajectory.rates, trajectory.work, watts, seen.kinetic, seen.potential]
     arrays += [trajectory.reactions.multipliers] if trajectory.reactions else []
     told = [*seen.values.values(), *seen.rates.values(), *seen.positions.values(), *seen.arrows.values()]
-    good = int((np.abs(np.column_stack([*arrays, *told])) <= LARGEST).all(axis=1).cumprod().sum())
-    if good == len(trajectory.times):
-        return trajectory, seen
-    return _cut(trajectory, good), _cut_observation(seen, good)
+    told += [column for each in frictions.values() for column in (each.force, each.largest)]
+    return int((np.abs(np.column_stack([*arrays, *told])) <= LARGEST).all(axis=1).cumprod().sum())
 
 
 def _cut(trajectory: Trajectory, good: int) -> Trajectory:
