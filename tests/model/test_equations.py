@@ -18,12 +18,6 @@ def random_inputs(count: int, width: int) -> np.ndarray:
     return np.random.default_rng(7).uniform(0.3, 1.4, (count, width))
 
 
-def mass_matrices(table: np.ndarray, n: int) -> np.ndarray:
-    matrices, lower = np.zeros((len(table), n, n)), np.tril_indices(n)
-    matrices[:, lower[0], lower[1]] = matrices[:, lower[1], lower[0]] = table[:, : len(lower[0])]
-    return matrices
-
-
 @pytest.mark.one_in(14)
 @pytest.mark.parametrize("name", all_scenes())
 def test_mass_matrix_and_forcing_are_those_of_lagranges_method(name: str) -> None:
@@ -32,11 +26,10 @@ def test_mass_matrix_and_forcing_are_those_of_lagranges_method(name: str) -> Non
     symbols, mass, forcing = lagranges_method(scene)
     expected = sp.lambdify(symbols, [mass.tolist(), list(forcing)], "math", cse=True)
     inputs = random_inputs(POINTS, 2 * n + 1 + len(scene.parameters))
-    table = model.motion.table(inputs)
-    for row, found_mass, outputs in zip(inputs, mass_matrices(table, n), table, strict=True):
+    system = model.system(inputs)
+    for row, found_mass, found in zip(inputs, system.mass, system.forces, strict=True):
         wanted_mass, wanted_forcing = expected(*row)
         np.testing.assert_allclose(found_mass, np.array(wanted_mass), rtol=1e-12, atol=1e-12)
-        found = outputs[n * (n + 1) // 2 :][:n]
         np.testing.assert_allclose(found, np.array(wanted_forcing), rtol=1e-11, atol=1e-11)
 
 
@@ -48,8 +41,8 @@ def test_power_is_what_energy_gains(name: str) -> None:
     row = random_inputs(1, 2 * n + 1 + len(scene.parameters))[0]
 
     def accelerations(at: np.ndarray) -> np.ndarray:
-        table = model.motion.table(at[None])
-        return np.linalg.solve(mass_matrices(table, n)[0], table[0, n * (n + 1) // 2 :][:n])
+        system = model.system(at[None])
+        return np.linalg.solve(system.mass[0], system.forces[0])
 
     def energy(dt: float) -> float:
         """E + V a time dt later: q, q̇ by Taylor series whose third derivative does not matter at dt² accuracy."""

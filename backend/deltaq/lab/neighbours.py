@@ -142,9 +142,8 @@ class Neighbours:
     @cached_property
     def _masses(self) -> Floats:
         """√Mᵢᵢ at the start: times these, coordinates of any units are of one kind."""
-        n, problem = self.problem.degrees, self.problem
-        table = problem.model.motion.table(problem.inputs(np.zeros(1), self._start[None, :]))[0]
-        masses = np.abs(table[[i * (i + 3) // 2 for i in range(n)]])
+        system = self.problem.system(np.zeros(1), self._start[None, :])
+        masses = np.abs(np.diagonal(system.mass[0]))
         return np.asarray(np.sqrt(np.where(masses > 0.0, masses, 1.0)))
 
     def _jacobians(self, times: Floats, states: Floats) -> Floats:

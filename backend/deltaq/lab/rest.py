@@ -36,11 +36,8 @@ def at_rest(problem: Problem, pointer: str) -> Problem:
 
 def _forces(problem: Problem, values: Floats) -> Floats:
     """f of M q̈ = f at rest, for rows of q."""
-    n = problem.degrees
     states = np.hstack([values, np.zeros_like(values)])
-    table = problem.model.motion.table(problem.inputs(np.zeros(len(values)), states))
-    first = n * (n + 1) // 2
-    return np.asarray(table[:, first : first + n])
+    return problem.system(np.zeros(len(values)), states).forces
 
 
 def _jacobian(problem: Problem, values: Floats) -> Floats:

@@ -16,6 +16,8 @@ from .disturbance import disturbed
 from .equations import Equations, equations
 from .functions import Expr
 from .kicks import compiled_kicks
+from .layout import Layout
+from .linear_system import LinearSystem, linear_system
 from .parts import parts
 from .phase import PhaseSpace, phase_space
 from .pushes import Pushes, compiled_pushes
@@ -27,31 +29,6 @@ from .tape import Tape, shared_tape_of, tape_of
 
 T = TypeVar("T")
 DISTURBANCE = 2.0**-42  # 2¹⁰ units in the last place
-
-
-@dataclass(frozen=True)
-class Layout:
-    """What the numbers of a model's inputs and outputs are.
-
-    Inputs of both functions: q, q̇ (of the free coordinates), t, parameters.
-    """
-
-    free: tuple[str, ...]
-    guided: tuple[str, ...]
-    parameters: tuple[str, ...]
-    places: tuple[str, ...]
-    arrows: tuple[str, ...]
-    dimension: int
-    is_powered: bool
-    switches: tuple[str, ...] = ()  # whose rates the switching functions are made of, by function
-    multipliers: tuple[str, ...] = ()  # by constraint, the holonomic ones first
-    holonomic: int = 0  # how many of the constraints are
-    constraints: tuple[int, ...] = ()  # their places in the scene
-
-    @property
-    def degrees(self) -> int:
-        """The number of free coordinates n; where there are constraints, fewer of them are independent."""
-        return len(self.free)
 
 
 @dataclass(frozen=True)
@@ -114,6 +91,10 @@ class Model:
         vectors = [*eqs.positions.values(), *eqs.arrows.values()]
         seen = [eqs.kinetic, eqs.potential, *_guided(eqs), *(x for vector in vectors for x in vector)]
         return compile_expressions(eqs.symbols.inputs, seen)
+
+    def system(self, inputs: Floats) -> LinearSystem:
+        """M q̈ = f + Aᵀλ, A q̈ = γ at states whose inputs are given: shape (states, inputs)."""
+        return linear_system(self.layout, self.motion.table(inputs))
 
     @cached_property
     def tape(self) -> Tape:

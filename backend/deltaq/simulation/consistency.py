@@ -113,13 +113,8 @@ class _Held:
 
     def _parts(self, q: Floats) -> tuple[Floats, Floats]:
         """M, shape (n, n), and A, shape (m, n)."""
-        n, layout = q.size, self.model.layout
-        table = self.model.motion.table(self._inputs(q, np.zeros(n)))[0]
-        mass, count = np.zeros((n, n)), len(layout.multipliers)
-        rows, columns = np.tril_indices(n)
-        mass[rows, columns] = mass[columns, rows] = table[: rows.size]
-        first = rows.size + n + (n + 1 if layout.is_powered else 0)
-        return mass, table[first : first + count * n].reshape(count, n)
+        system = self.model.system(self._inputs(q, np.zeros(q.size)))
+        return system.mass[0], system.rows[0]
 
     def gaps(self, q: Floats, v: Floats) -> Floats:
         """What each constraint is off by: g of the holonomic ones, w of the others: shape (m,)."""

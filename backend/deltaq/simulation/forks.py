@@ -59,8 +59,4 @@ def _independence(problem: Problem, times: Floats, states: Floats) -> Floats:
 
 def _rows(problem: Problem, times: Floats, states: Floats) -> Floats:
     """A at each state, shape (states, m, n)."""
-    n, layout = problem.degrees, problem.model.layout
-    table = problem.model.motion.table(problem.inputs(times, states))
-    first = n * (n + 1) // 2 + n + (n + 1 if layout.is_powered else 0)
-    count = len(layout.multipliers)
-    return np.asarray(table[:, first : first + count * n]).reshape(len(times), count, n)
+    return problem.system(times, states).rows

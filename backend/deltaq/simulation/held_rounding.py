@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from ..model.linear_system import linear_system
 from .kernels.motion import SMALLEST_SHARE
 from .problem import Floats, Problem
 
@@ -21,20 +22,17 @@ def held_rounding(problem: Problem, times: Floats, states: Floats) -> Floats:
 
     `times` has shape (samples,), `states` shape (samples, ≥ 2n).
     """
-    n, layout = problem.degrees, problem.model.layout
-    count = layout.holonomic
+    n, count = problem.degrees, problem.model.layout.holonomic
     if not count or not len(times):
         return np.zeros((n, 1))
     chosen = np.unique(np.linspace(0, len(times) - 1, LOOKS).astype(int))
     table = problem.model.motion.table(problem.inputs(times[chosen], states[chosen]))
-    mass, (lower, right) = np.zeros((len(chosen), n, n)), np.tril_indices(n)
-    mass[:, lower, right] = mass[:, right, lower] = table[:, : lower.size]
-    first = lower.size + n + (n + 1 if layout.is_powered else 0)
-    rows = table[:, first : first + count * n].reshape(-1, count, n)
     known = np.isfinite(table).all(axis=1)
     if not known.any():
         return np.zeros((n, 1))
-    moved = _moved(mass[known], rows[known], OF_TERMS * np.abs(rows * states[chosen][:, None, :n]).sum(axis=2)[known])
+    system = linear_system(problem.model.layout, table[known])
+    rows = system.rows[:, :count]
+    moved = _moved(system.mass, rows, OF_TERMS * np.abs(rows * states[chosen][known][:, None, :n]).sum(axis=2))
     return np.asarray(np.median(moved, axis=0)[:, None])
 
 

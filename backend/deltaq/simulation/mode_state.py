@@ -8,6 +8,7 @@ from functools import cached_property
 
 import numpy as np
 
+from ..model.linear_system import LinearSystem
 from ..model.modes import Modes
 from .kernels.motion import SMALLEST_SHARE
 from .problem import Floats, Problem
@@ -91,27 +92,19 @@ class ModeState:
         )  # fmt: skip
 
     @cached_property
-    def _packed(self) -> Floats:
-        """What the model says of the motion: M row by row up to its diagonal, f, then what else it has."""
-        return np.asarray(self.problem.model.motion.table(self.row)[0])
+    def _system(self) -> LinearSystem:
+        """What the model says of the motion, of this state alone."""
+        return self.problem.model.system(self.row)
 
-    @cached_property
+    @property
     def mass(self) -> Floats:
         """M, shape (n, n)."""
-        n = len(self.q)
-        found = np.zeros((n, n))
-        for row in range(n):
-            first = row * (row + 1) // 2
-            found[row, : row + 1] = found[: row + 1, row] = self._packed[first : first + row + 1]
-        return found
+        return np.asarray(self._system.mass[0])
 
-    @cached_property
+    @property
     def kept(self) -> tuple[Floats, Floats]:
         """A, shape (m, n), and γ, shape (m,), of the scene's constraints."""
-        n, layout = len(self.q), self.problem.model.layout
-        m, first = len(layout.multipliers), n * (n + 1) // 2 + n + (n + 1 if layout.is_powered else 0)
-        packed = self._packed
-        return packed[first : first + m * n].reshape(m, n), packed[first + m * n : first + m * n + m]
+        return np.asarray(self._system.rows[0]), np.asarray(self._system.bends[0])
 
     def moved_by(self, forces: Floats, bends: Floats | None = None) -> Floats:
         """x of M x = forces + Aᵀλ, A x = bends (0 if not given): what forces, or impulses, do to q̈, or to q̇.
@@ -131,8 +124,7 @@ class ModeState:
     @cached_property
     def accelerations(self) -> Floats:
         """q̈ in this mode, shape (n,)."""
-        n = len(self.q)
-        return self.moved_by(self._packed[n * (n + 1) // 2 : n * (n + 1) // 2 + n], self.kept[1])
+        return self.moved_by(self._system.forces[0], self.kept[1])
 
     @property
     def touching(self) -> list[int]:

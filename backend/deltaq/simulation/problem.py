@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..model.compiled import Compiled
+from ..model.linear_system import LinearSystem
 from ..model.model import Model
 
 Floats = NDArray[np.float64]
@@ -89,6 +90,10 @@ class Problem:
         """
         parameters = np.broadcast_to(np.array(self.parameters, dtype=np.float64), (len(times), len(self.parameters)))
         return np.hstack([states[:, : 2 * self.degrees], times[:, None], parameters])
+
+    def system(self, times: Floats, states: Floats) -> LinearSystem:
+        """M q̈ = f + Aᵀλ, A q̈ = γ at these times and states, of shapes as for `inputs`."""
+        return self.model.system(self.inputs(times, states))
 
 
 @dataclass(frozen=True)

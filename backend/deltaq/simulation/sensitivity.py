@@ -8,7 +8,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..model.model import Layout
+from ..model.layout import Layout
+from ..model.linear_system import linear_system
 from .problem import Floats
 
 DEPENDENT = 1e-9  # of the largest singular value of K: what rows that follow from others have but for rounding
@@ -22,14 +23,10 @@ def sensitivities(layout: Layout, table: Floats, sizes: Floats, rank: int) -> tu
     """
     n, m = layout.degrees, len(layout.multipliers)
     rows, columns = np.tril_indices(n)
+    system = linear_system(layout, table)
     matrix = np.zeros((len(table), n + m, n + m))
-    matrix[:, rows, columns] = matrix[:, columns, rows] = table[:, : rows.size]
-    right = table[:, rows.size : rows.size + n]
-    if m:
-        first = rows.size + n + (n + 1 if layout.is_powered else 0)
-        jacobian = table[:, first : first + m * n].reshape(-1, m, n)
-        matrix[:, n:, :n], matrix[:, :n, n:] = jacobian, -jacobian.transpose(0, 2, 1)
-        right = np.hstack([right, table[:, first + m * n : first + m * n + m]])
+    matrix[:, :n, :n], matrix[:, n:, :n], matrix[:, :n, n:] = system.mass, system.rows, -system.rows.transpose(0, 2, 1)
+    right = np.hstack([system.forces, system.bends])
     inverse = _inverse(matrix) if rank == m else _inverse_of_independent(matrix)
     with np.errstate(invalid="ignore"):
         weights = (inverse[:, :n] / sizes[:, :, None]).sum(axis=1)

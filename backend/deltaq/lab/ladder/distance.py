@@ -23,7 +23,6 @@ import numpy as np
 
 from ...simulation.problem import Floats, Problem
 from .drift import Directions, directions, drift
-from .metric import mass_matrices
 
 IN_SPACE = 3.0  # times the distance in space that one by coordinates may be
 NOISE = 1e-13  # rounding of a coordinate, relative to its size
@@ -187,7 +186,7 @@ class Yardstick:
     @cached_property
     def masses(self) -> Floats:
         """M(q, t) along the motion: shape (samples, n, n)."""
-        return mass_matrices(self.problem, self.times, self.states)
+        return self.problem.system(self.times, self.states).mass
 
     @cached_property
     def _arms(self) -> Floats:

@@ -81,11 +81,9 @@ def directions(problem: Problem, times: Floats, states: Floats, units: Floats, i
 
 def _held(problem: Problem, times: Floats, states: Floats, units: Floats) -> Floats:
     """The rows of A, in units of the coordinates, which directions have to keep: shape (rows, n)."""
-    n, count = problem.degrees, len(problem.model.layout.multipliers)
     chosen = np.linspace(0, len(times) - 1, POINTS).astype(int)
-    table = problem.model.motion.table(problem.inputs(times[chosen], states[chosen]))
-    first = n * (n + 1) // 2 + n + (n + 1 if problem.model.layout.is_powered else 0)
-    rows = table[:, first : first + count * n].reshape(-1, n) * units
+    system = problem.system(times[chosen], states[chosen])
+    rows = system.rows.reshape(-1, problem.degrees) * units
     sizes = np.linalg.norm(rows, axis=1, keepdims=True)
     return np.asarray(np.divide(rows, sizes, out=np.zeros_like(rows), where=sizes > 0.0))
 

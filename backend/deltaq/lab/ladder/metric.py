@@ -1,4 +1,4 @@
-"""What distances are made of: the mass matrix along a motion, the angles among the coordinates, the particles."""
+"""What distances are made of: the angles among the coordinates, the particles."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ import numpy as np
 from ...language.floats import evaluate
 from ...mechanics.bodies.particle import Particle
 from ...mechanics.scene import Scene
-from ...simulation.problem import Floats, Problem
+from ...simulation.problem import Problem
 
 DEGREE = np.pi / 180.0
 
@@ -16,19 +16,6 @@ def radians(scene: Scene, problem: Problem) -> tuple[float, ...]:
     """How many radians each free coordinate's unit has; 0 for what is no angle."""
     pairs = zip(scene.free, problem.angular, strict=True)
     return tuple((DEGREE if each.unit in ("°", "deg") else 1.0) if angular else 0.0 for each, angular in pairs)
-
-
-def mass_matrices(problem: Problem, times: Floats, states: Floats) -> Floats:
-    """M(q, t) at the samples: shape (samples, n, n).
-
-    `times` has shape (samples,), `states` shape (samples, ≥ 2n).
-    """
-    n = problem.degrees
-    table = problem.model.motion.table(problem.inputs(times, states))
-    lower = np.tril_indices(n)
-    matrices = np.zeros((len(times), n, n))
-    matrices[:, lower[0], lower[1]] = matrices[:, lower[1], lower[0]] = table[:, : len(lower[0])]
-    return matrices
 
 
 def particles(scene: Scene) -> dict[str, float]:

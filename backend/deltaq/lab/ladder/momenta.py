@@ -10,7 +10,6 @@ from ...mechanics.scene import Scene
 from ...model.cyclic import cyclic_coordinates
 from ...simulation.problem import Floats, Problem
 from ...simulation.service import problem_of
-from .metric import mass_matrices
 from .rest_frame import in_rest_frame
 
 
@@ -60,7 +59,7 @@ class Conserved:
         still[:, n + chosen] = 0.0
         found = still[:, n : 2 * n]
         if chosen.size:
-            masses = mass_matrices(self.problem, times, still)[:, chosen][:, :, chosen]
+            masses = self.problem.system(times, still).mass[:, chosen][:, :, chosen]
             moved = self.values - momenta(self.problem, times, still)[:, chosen]
             found[:, chosen] = _solutions(masses, moved)
         return found

@@ -19,7 +19,6 @@ from ...simulation.problem import Floats, Problem
 from .distance import Accuracy, Yardstick
 from .ending import known
 from .measurement import LEAST_TOLERANCE, SHOWN, RungRun, full_run, run_rung, seen
-from .metric import mass_matrices
 from .minimal import Minimal, minimal
 from .simplification import Motion
 
@@ -122,12 +121,8 @@ def _unique(problem: Problem) -> Mapping[int, str]:
 
 def _multipliers(problem: Problem, times: Floats, states: Floats, bends: Floats) -> Floats:
     """λ of M q̈ − f = Aᵀλ, the least by least squares: shape (samples, m). `bends` are q̈, shape (samples, n)."""
-    n, layout = problem.degrees, problem.model.layout
-    count, first = len(layout.multipliers), n * (n + 1) // 2
-    table = problem.model.motion.table(problem.inputs(times, states))
-    masses, forces = mass_matrices(problem, times, states), table[:, first : first + n]
-    begin = first + n + (n + 1 if layout.is_powered else 0)
-    rows = table[:, begin : begin + count * n].reshape(-1, count, n)
-    held = np.einsum("tij,tj->ti", masses, bends) - forces
-    nothing = None if problem.rank == count else DEPENDENT
-    return np.stack([np.linalg.lstsq(row.T, each, rcond=nothing)[0] for row, each in zip(rows, held, strict=True)])
+    system = problem.system(times, states)
+    held = np.einsum("tij,tj->ti", system.mass, bends) - system.forces
+    nothing = None if problem.rank == system.rows.shape[1] else DEPENDENT
+    pairs = zip(system.rows, held, strict=True)
+    return np.stack([np.linalg.lstsq(rows.T, each, rcond=nothing)[0] for rows, each in pairs])

@@ -15,7 +15,6 @@ import numpy as np
 from ...simulation.derivatives import accelerations
 from ...simulation.problem import Floats, Problem
 from .distance import Yardstick
-from .metric import mass_matrices
 
 SHALLOW = 1e-2  # of the usual smallest eigenvalue of M: lower ones are looked at closely
 SINGULAR = 1e-10  # of the largest: what rounding leaves of an eigenvalue that is zero
@@ -53,7 +52,7 @@ def _passages(full: Yardstick) -> Floats:
 
 def _smallest(full: Yardstick, times: Floats, states: Floats) -> Floats:
     """The smallest eigenvalue of M in the natural units of the coordinates, those of the largest entries met."""
-    masses = mass_matrices(full.problem, times, states)
+    masses = full.problem.system(times, states).mass
     sizes = np.sqrt(np.maximum(np.einsum("tii->ti", full.masses).max(axis=0), 1e-300))
     return np.asarray(np.linalg.eigvalsh(masses / np.outer(sizes, sizes))[:, 0])
 

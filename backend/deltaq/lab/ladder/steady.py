@@ -18,7 +18,6 @@ from ...simulation.problem import Floats, Problem
 from ...simulation.stiffness import eigenvalues
 from .distance import Yardstick
 from .mean import Mean
-from .metric import mass_matrices
 from .momenta import Conserved
 
 # In the units in which coordinates change by as much as the motion does (`Yardstick.units`):
@@ -88,10 +87,8 @@ class Steady:
         rates = self.rates(place, np.zeros(len(place)))
         times, weights = self._moments
         states = np.tile(np.concatenate([place, rates]), (len(times), 1))
-        n = self.problem.degrees
-        first = n * (n + 1) // 2
-        table = self.problem.model.motion.table(self.problem.inputs(times, states))[:, first : first + n]
-        return np.asarray((weights @ table * self._units)[self._moving])
+        forces = self.problem.system(times, states).forces
+        return np.asarray((weights @ forces * self._units)[self._moving])
 
     def settled(self, start: Floats) -> Floats | None:
         """Where the forces vanish, by Newton's method from a start, shape (n,); None if it does not get there.
@@ -115,7 +112,7 @@ class Steady:
 
     def _is_regular(self, place: Floats) -> bool:
         state = np.concatenate([place, np.zeros(len(place))])[None]
-        mass = mass_matrices(self.problem, np.zeros(1), state)[0] * np.outer(self._units, self._units)
+        mass = self.problem.system(np.zeros(1), state).mass[0] * np.outer(self._units, self._units)
         return bool(np.isfinite(mass).all() and np.linalg.cond(mass) < REGULAR)
 
     def _stepped(self, place: Floats, force: Floats) -> Floats:
