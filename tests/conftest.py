@@ -9,11 +9,13 @@ import sys
 from collections.abc import Generator, Iterator
 from importlib import import_module
 from pathlib import Path
+from time import perf_counter
 
 import pytest
 from tests.bundling import bundle_of, made
 from tests.order import (
     BUDGET,
+    FOR_KERNELS,
     ByFile,
     Record,
     file_of,
@@ -32,6 +34,7 @@ from xdist.workermanage import WorkerController
 from deltaq.api.workers.kernels import are_compiled
 
 ROOT = Path(__file__).parents[1]
+WAITED = pytest.StashKey[float]()  # seconds for the kernels, of the test that was set up first
 OMITTED = pytest.StashKey[dict[str, int]]()  # how many tests and cases a run leaves out
 
 
@@ -42,11 +45,13 @@ def root() -> Path:
 
 
 @pytest.fixture(scope="session")
-def kernels() -> None:
+def kernels(request: pytest.FixtureRequest) -> None:
     """All kernels are compiled, by one process for all workers of the run and for the services that they start."""
+    start = perf_counter()
     if not are_compiled():
         subprocess.run([sys.executable, "-m", "deltaq.cli", "compile"], check=True, stdout=subprocess.DEVNULL)
     import_module("deltaq.simulation.kernels.machine")  # or short motions would be interpreted: see `Interpretation`
+    request.config.stash[WAITED] = perf_counter() - start
 
 
 @pytest.fixture(scope="session")
@@ -104,6 +109,17 @@ def pytest_collection() -> Generator[None, object, object]:
         except BlockingIOError:
             fcntl.flock(lock, fcntl.LOCK_SH)  # together, once the first has done
         return (yield)
+
+
+@pytest.hookimpl(wrapper=True)
+def pytest_runtest_setup(item: pytest.Item) -> Iterator[None]:
+    """Waiting for the kernels is no time of the test that does so; the report tells it apart."""
+    result = yield
+    waited = item.config.stash.get(WAITED, 0.0)
+    if waited:
+        item.user_properties.append((FOR_KERNELS, waited))
+        item.config.stash[WAITED] = 0.0
+    return result
 
 
 def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:

@@ -28,6 +28,7 @@ DURATIONS = Path(__file__).with_name("durations.json")
 SHARING = re.compile(r"^from tests(\.derived import | import derived)", re.MULTILINE)
 SHARED = "tests of shared derivations"
 LONG = 3.0  # seconds: a test that takes as long has its own name in the record, and its turn
+FOR_KERNELS = "seconds for the kernels"  # of a test in a report: it was waiting, others were not
 NAMED = 1.0  # seconds: a file whose other tests take less is not worth naming
 # Seconds of long tests in one run, of four workers on two cores; those marked `always` come on top.
 BUDGET = 220.0
@@ -153,7 +154,12 @@ def measured(report: Path, before: Record, exists: Collection[str]) -> Record:
     seconds: Counter[str] = Counter()
     for case in ET.parse(report).iter("testcase"):
         file = f"{case.attrib['classname'].replace('.', '/')}.py"
-        seconds[f"{file}::{case.attrib['name'].partition('[')[0]}"] += float(case.attrib["time"])
+        waited = fsum(
+            float(each.attrib["value"]) for each in case.iter("property") if each.attrib["name"] == FOR_KERNELS
+        )
+        seconds[f"{file}::{case.attrib['name'].partition('[')[0]}"] += float(case.attrib["time"]) - float(
+            told.get(FOR_KERNELS, 0.0)
+        )
     long = {test: time for test, time in before.long.items() if test not in seconds and test in exists}
     long |= {test: time for test, time in seconds.items() if time >= LONG}
     others: Counter[str] = Counter()

@@ -12,6 +12,7 @@ from xml.etree import ElementTree as ET
 
 import pytest
 from tests.order import (
+    FOR_KERNELS,
     LONG,
     NAMED,
     Record,
@@ -53,6 +54,9 @@ def test_a_report_is_summed_by_long_tests_and_the_rest_of_a_file(tmp_path: Path)
         ("tests.test_short", "test_c", 0.9 * NAMED),
     ):
         ET.SubElement(report, "testcase", classname=file, name=name, time=str(time))
+    first = ET.SubElement(report, "testcase", classname="tests.test_short", name="test_first", time=str(100.0 * LONG))
+    properties = ET.SubElement(first, "properties")
+    ET.SubElement(properties, "property", name=FOR_KERNELS, value=str(100.0 * LONG))
     ET.ElementTree(report).write(tmp_path / "report.xml")
     files = "tests/lab/test_a.py", "tests/test_d.py"
     before = Record({f"{files[0]}::test_was_long": 9.0, f"{files[1]}::test_waits": 7.0, "gone.py::test_e": 8.0}, {})
