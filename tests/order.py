@@ -154,12 +154,9 @@ def measured(report: Path, before: Record, exists: Collection[str]) -> Record:
     seconds: Counter[str] = Counter()
     for case in ET.parse(report).iter("testcase"):
         file = f"{case.attrib['classname'].replace('.', '/')}.py"
-        waited = fsum(
-            float(each.attrib["value"]) for each in case.iter("property") if each.attrib["name"] == FOR_KERNELS
-        )
-        seconds[f"{file}::{case.attrib['name'].partition('[')[0]}"] += float(case.attrib["time"]) - float(
-            told.get(FOR_KERNELS, 0.0)
-        )
+        told = {each.attrib["name"]: each.attrib["value"] for each in case.iter("property")}
+        own = float(case.attrib["time"]) - float(told.get(FOR_KERNELS, 0.0))
+        seconds[f"{file}::{case.attrib['name'].partition('[')[0]}"] += own
     long = {test: time for test, time in before.long.items() if test not in seconds and test in exists}
     long |= {test: time for test, time in seconds.items() if time >= LONG}
     others: Counter[str] = Counter()
