@@ -92,7 +92,7 @@ class Problem:
         return np.hstack([states[:, : 2 * self.degrees], times[:, None], parameters])
 
     def system(self, times: Floats, states: Floats) -> LinearSystem:
-        """M q̈ = f + Aᵀλ, A q̈ = γ at these times and states: shapes (states,) and (states, ≥ 2n)."""
+        """M q̈ = f + Aᵀλ, A q̈ = γ at these times, shape (states,), and states, shape (states, ≥ 2n)."""
         return self.model.system(self.inputs(times, states))
 
 
