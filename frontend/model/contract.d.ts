@@ -76,6 +76,11 @@ export interface paths {
         /**
          * Simulate a scene with many initial values or parameters
          * @description Simulate a scene with many initial values or parameters. Each run has its own status and error.
+         *
+         *     Runs come as they are done where `Accept` asks for text/event-stream. The events: `waiting` with `place` in the
+         *     queue (1: the next, 0: begun) and `seconds`; `block` with what the answer tells of each run, of `runs` runs from the
+         *     `first` on, in whatever order they are done; then `result`, which is what it tells of all of them together, or
+         *     `problem` with the runs that are `missing`. Columns of the blocks, put together by `first`, are those of the answer.
          */
         post: operations["run_ensemble"];
         delete?: never;
@@ -3325,45 +3330,12 @@ export interface components {
             runs: number;
             t: components["schemas"]["Column"];
             /**
-             * Quantities
-             * @description the values of what varies, by run
-             */
-            quantities: {
-                [key: string]: components["schemas"]["Column"];
-            };
-            /**
-             * Status
-             * @description of each run
-             * @example [
-             *       "ok",
-             *       "ok"
-             *     ]
-             */
-            status: ("ok" | "event" | "stopped" | "cancelled" | "step_limit" | "singular_mass_matrix" | "diverged" | "newton_failed" | "stiff" | "unresolved" | "step_blind" | "horizon_reached" | "tolerance_missed" | "guide_jumps" | "singular_constraints")[];
-            /**
              * Reasons
              * @description what each status that occurs means, and what to do
              */
             reasons: {
                 [key: string]: string;
             };
-            /**
-             * Coordinates
-             * @description by coordinate, a column for each run
-             */
-            coordinates?: {
-                [key: string]: components["schemas"]["Column"][];
-            } | null;
-            /**
-             * Error
-             * @description largest estimated error of each run: absolute below 1, relative above; null (packed, NaN) of a run that came to no end
-             */
-            error: (number | null)[] | string;
-            /**
-             * Steps
-             * @description of each run
-             */
-            steps: number[];
             /**
              * Mean
              * @description over the runs, by coordinate
@@ -3390,6 +3362,39 @@ export interface components {
              * @description seconds
              */
             wall_time: number;
+            /**
+             * Quantities
+             * @description the values of what varies, by run
+             */
+            quantities: {
+                [key: string]: components["schemas"]["Column"];
+            };
+            /**
+             * Status
+             * @description of each run
+             * @example [
+             *       "ok",
+             *       "ok"
+             *     ]
+             */
+            status: ("ok" | "event" | "stopped" | "cancelled" | "step_limit" | "singular_mass_matrix" | "diverged" | "newton_failed" | "stiff" | "unresolved" | "step_blind" | "horizon_reached" | "tolerance_missed" | "guide_jumps" | "singular_constraints")[];
+            /**
+             * Coordinates
+             * @description by coordinate, a column for each run
+             */
+            coordinates?: {
+                [key: string]: components["schemas"]["Column"][];
+            } | null;
+            /**
+             * Error
+             * @description largest estimated error of each run: absolute below 1, relative above; null (packed, NaN) of a run that came to no end
+             */
+            error: (number | null)[] | string;
+            /**
+             * Steps
+             * @description of each run
+             */
+            steps: number[];
         };
         /**
          * EnsembleRequest
@@ -10438,6 +10443,7 @@ export interface operations {
                 };
                 content: {
                     "application/json": components["schemas"]["EnsembleAnswer"];
+                    "text/event-stream": string;
                 };
             };
         };

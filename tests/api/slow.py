@@ -1,11 +1,11 @@
-"""Derivations whose last chapter takes too long, fails, or takes its time; their equations are the real ones."""
+"""Jobs that take too long, fail, or take their time, derivations in their last chapter; what comes before is real."""
 
 from __future__ import annotations
 
 import time
 from typing import Any
 
-from deltaq.api.jobs import Parts, derive
+from deltaq.api.jobs import Parts, derive, ensemble_in_blocks
 
 Document = dict[str, Any]
 PAUSE = 1.5
@@ -32,3 +32,10 @@ def unhurried(document: Document) -> Parts:
     yield next(parts)
     time.sleep(PAUSE)
     return (yield from parts)
+
+
+def broken_ensemble(document: Document) -> Parts:
+    for block in ensemble_in_blocks(document):
+        if block["first"] != 64:
+            yield block
+    raise ArithmeticError("of one block")

@@ -194,6 +194,20 @@ def test_experiment_stops_when_the_last_who_hears_it_has_gone(patient: Served) -
     assert not measuring(patient)
 
 
+def test_ensemble_stops_when_who_hears_it_has_gone(patient: Served) -> None:
+    """After some blocks of very many; nobody else hears a stream of blocks."""
+    values = {"from": 0.1, "to": 1.0, "count": 5000}
+    question = {"scene": "triple-pendulum", "t_end": 90.0, "vary": {"initial.phi1.value": values}, "tolerance": 1e-12}
+    settled(patient)
+    kills, stream = workers(patient, "kills"), {"Accept": "text/event-stream"}
+    address = f"{patient.address}api/v1/ensembles"
+    with httpx.stream("POST", address, json=question, headers=stream, timeout=PATIENCE) as response:
+        assert "event: block" in response.iter_lines()
+        assert busy(patient) == 1
+    assert within(4.0, patient, 0)
+    assert workers(patient, "kills") == kills
+
+
 def test_work_goes_on_while_anybody_waits_for_it(patient: Served) -> None:
     settled(patient)
     with ask(patient):

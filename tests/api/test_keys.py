@@ -11,7 +11,8 @@ from tests.api.test_examples import bodies, names
 from deltaq.api import service as service_module
 from deltaq.api.app import create_app
 from deltaq.api.cache import Cache
-from deltaq.api.service import Service, pack
+from deltaq.api.packing import pack
+from deltaq.api.service import Service
 from deltaq.settings import Settings
 
 pytestmark = pytest.mark.anyio

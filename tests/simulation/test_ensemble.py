@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 from base64 import b64decode
-from concurrent.futures import ProcessPoolExecutor
-from multiprocessing import get_context
 from typing import Any
 
 import numpy as np
@@ -18,7 +16,6 @@ from deltaq.errors import Problem, RequestError
 from deltaq.mechanics.document import read_scene
 from deltaq.mechanics.library import load_scene
 from deltaq.mechanics.writing import write_scene
-from deltaq.simulation import ensemble as engine
 from deltaq.simulation.driver import simulate
 from deltaq.simulation.ensemble import Ensemble, in_lanes, needs_single_runs, run_ensemble
 from deltaq.simulation.ensemble_answer import run
@@ -182,6 +179,22 @@ def test_steps_are_those_of_the_motion_alone(name: str) -> None:
             np.testing.assert_allclose(found.samples[index, 1], alone.states[-1], rtol=1e-9, atol=1e-9)
 
 
+def test_finer_runs_of_a_motion_do_not_depend_on_longer_ones_beside_it() -> None:
+    """Motions with very many steps are compared with finer runs, which end after twice as many or so: here too soon."""
+    problem = problem_of(oscillator("-k*m*x^3", x=1.0, u=0.0), 1000.0, 101)
+    place = [one.name for one in problem.model.scene.parameters].index("k")
+    parameters = np.repeat([problem.parameters], 2, axis=0)
+    parameters[:, place] = [3e3, 1e5]
+    ensemble = Ensemble(problem, np.repeat(problem.state[None, :2], 2, axis=0), parameters)
+    together = run_ensemble(ensemble, 0.1)
+    assert [each.status for each in together.outcomes] == ["step_limit", "step_limit"]
+    for index in range(2):
+        alone = run_ensemble(ensemble.chosen(np.array([index])), 0.1)
+        np.testing.assert_array_equal(together.values[index], alone.values[0])
+        np.testing.assert_array_equal(together.errors[index], alone.errors[0])
+        assert together.outcomes[index] == alone.outcomes[0]
+
+
 def test_one_run_may_fail_and_the_others_not() -> None:
     """x″ = x³ runs away where it begins far out; a mass that is thrown does not."""
     problem = problem_of(oscillator("m*x^3", x=0.1, u=0.0), 3.0, 11)
@@ -315,19 +328,6 @@ def test_what_a_motion_tells_does_not_depend_on_others_that_missed_their_toleran
         np.testing.assert_array_equal(together.values[index], alone.values[0])
         np.testing.assert_array_equal(together.errors[index], alone.errors[0])
         assert together.outcomes[index] == alone.outcomes[0]
-
-
-def test_parts_on_other_processes_give_the_same_answer(monkeypatch: pytest.MonkeyPatch) -> None:
-    """What is sent to a cluster is pickled there and back."""
-    monkeypatch.setattr(engine, "OF_CLUSTER", 8)
-    ensemble, done = cloud(problem_of(load_scene("double-pendulum"), 2.0, 5), 20), list[int]()
-    with ProcessPoolExecutor(1, mp_context=get_context("spawn")) as cluster:
-        parts = run_ensemble(ensemble, 1e-9, report=done.append, cluster=cluster)
-    here = run_ensemble(ensemble, 1e-9)
-    assert done == [8, 16, 20]
-    assert parts.outcomes == here.outcomes
-    for name in ("times", "values", "rates", "errors", "worst", "steps"):
-        np.testing.assert_array_equal(getattr(parts, name), getattr(here, name))
 
 
 X, L = "initial.x.value", "parameters.l"

@@ -18,8 +18,8 @@ from ..errors import InputError
 from ..narration.outcome import missing
 from .cache import Cache
 from .flights import OnUpdate, Update
+from .packing import pack, unpack
 from .problems import report_of
-from .service import pack, unpack
 from .workers.account import QuotaExceeded
 from .workers.job import DeadlineExceeded, JobError, MemoryExceeded, Overloaded, WorkerKilled
 

@@ -23,7 +23,7 @@ its ETag."""
 SUBJECTS = {
     "scenes": "Mechanical systems as data: the built-in ones, and checking one's own.",
     "derivations": "From a scene to its equations of motion, one verified step at a time.",
-    "ensembles": "Many motions of one scene together.",
+    "ensembles": "Many motions of one scene together; Accept: text/event-stream tells blocks of them as they are done.",
     "simulations": "Motions, with an error estimate and an energy balance.",
     "variations": "The first variation of what one writes, by its definition and by the chain rule.",
     "proofs": "Derivations that hold for any scene.",

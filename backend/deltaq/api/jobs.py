@@ -75,6 +75,20 @@ def ensemble(document: Document) -> Document:
     return answer | outcomes_explained(answer.pop("outcomes"), document["request"]["lang"])
 
 
+def ensemble_in_blocks(document: Document) -> Parts:
+    """The same, some runs at a time as they are done; then what is told of all of them."""
+    language = document["request"]["lang"]
+    with import_module("deltaq.lab.engine").cluster() as cluster:
+        parts = import_module("deltaq.simulation.ensemble_answer").run_in_parts(document["request"], cluster)
+        while True:
+            try:
+                part = next(parts)
+            except StopIteration as end:
+                answer: Document = end.value
+                return answer | outcomes_explained(answer.pop("outcomes"), language)
+            yield part | outcomes_explained(part.pop("outcomes"), language)
+
+
 def validate(document: Document) -> Document:
     """Whether a scene document can be used, and all its errors and warnings."""
     _, problems = examine(document["scene"])

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import asyncio
 import functools
-import gzip
 import hashlib
 import json
 import logging
@@ -20,6 +19,7 @@ from fastapi import Request
 
 from ..settings import Settings
 from .assets import Assets
+from .blocks import Blocks
 from .body import LargeBodies
 from .cache import Cache, content_hash
 from .clients import ACCOUNT
@@ -27,6 +27,7 @@ from .ending import Ending
 from .flights import OnUpdate, Update, ignore
 from .kernels import Kernels
 from .metrics import Metrics, make_metrics
+from .packing import pack
 from .page import SITE
 from .stores.disk import Disk
 from .stores.memory import Memory
@@ -77,6 +78,16 @@ class Service:
 
         async with self.pool.asked(key, ACCOUNT.get()):
             return await _shared(partial(self.cache.get, key, compute, on_update))
+
+    async def blocks(self, key: str, job: Job, document: Any, blocks: Blocks) -> bytes:
+        """The JSON of a job's answer, whose parts are sent as `blocks` before; those that are known at once."""
+        if (known := await blocks.known(self.cache, key)) is not None:
+            return known
+        result = await self.pool.run(
+            job, document, ignore, ACCOUNT.get(), lambda place: blocks.tell(_waiting(place)), take=blocks.take
+        )
+        await blocks.keep(self.cache, key, result)
+        return result
 
     async def measurement(
         self,
@@ -174,16 +185,6 @@ def make_ledger(settings: Settings) -> Ledger | None:
     """The ledger of the clients' shares; None if they may use what they like."""
     rate = settings.client_share * settings.workers
     return Ledger(rate, settings.client_credit) if rate > 0.0 else None
-
-
-def pack(answer: bytes) -> bytes:
-    """Compressed once, for every time it is sent."""
-    return gzip.compress(answer, 5, mtime=0)
-
-
-def unpack(answer: bytes) -> bytes:
-    """The JSON of a cached answer."""
-    return gzip.decompress(answer)
 
 
 def service_of(request: Request) -> Service:

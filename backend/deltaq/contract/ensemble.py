@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from math import prod
 from typing import Annotated, Literal, Self
 
 from pydantic import ConfigDict, Discriminator, Field, Tag, model_validator
@@ -99,14 +100,22 @@ class EnsembleRequest(SceneWithInitialValues):
         },
     )
 
+    @property
+    def count(self) -> int:
+        """How many runs are asked for."""
+        sizes = self._sizes
+        return prod(sizes if self.combine == "grid" else sizes[:1])
+
+    @property
+    def _sizes(self) -> list[int]:
+        """How many values each quantity takes."""
+        return [len(one) if isinstance(one, tuple) else one.count for one in self.vary.values()]
+
     @model_validator(mode="after")
     def _fits(self) -> Self:
-        sizes = [len(one) if isinstance(one, tuple) else one.count for one in self.vary.values()]
-        if self.combine == "together" and len(set(sizes)) > 1:
+        if self.combine == "together" and len(set(self._sizes)) > 1:
             raise PydanticCustomError("ensemble-unlike", "unlike numbers of values", {"at": "/vary"})
-        count = 1
-        for size in sizes if self.combine == "grid" else sizes[:1]:
-            count *= size
+        count = self.count
         told = {"at": "/vary", "runs": count, "seconds": count * self.t_end}
         bounds = {"most_runs": MOST_RUNS, "most_seconds": MOST_SECONDS, "most_numbers": MOST_NUMBERS}
         if count > MOST_RUNS or count * self.t_end > MOST_SECONDS or count * self.samples > MOST_NUMBERS:
@@ -128,11 +137,9 @@ class Density(Answer):
     values: tuple[Column, ...] = Field(description="for each sample a column of ρ, an entry for each interval")
 
 
-class EnsembleAnswer(Answer):
-    """All runs in the order of the values; of a grid the last quantity changes fastest."""
+class EnsembleRuns(Answer):
+    """What is told of each run."""
 
-    runs: int
-    t: Column
     quantities: dict[str, Column] = Field(description="the values of what varies, by run")
     status: tuple[Status, ...] = Field(description="of each run", examples=[["ok", "ok"]])
     reasons: dict[str, str] = Field(description="what each status that occurs means, and what to do")
@@ -142,8 +149,29 @@ class EnsembleAnswer(Answer):
         "null (packed, NaN) of a run that came to no end"
     )
     steps: tuple[int, ...] = Field(description="of each run")
+    columns: Written = "numbers"
+
+
+class EnsembleBlock(EnsembleRuns):
+    """Some runs of a stream, in their order: a `block` is told as soon as it is done, whatever its place."""
+
+    first: int = Field(description="the number of the first of them, from 0", examples=[64])
+    runs: int = Field(description="how many", examples=[64])
+    of: int = Field(description="how many runs there are", examples=[1000])
+
+
+class EnsembleTotals(Answer):
+    """What is told of all runs together: in a stream, at its end."""
+
+    runs: int
+    t: Column
+    reasons: dict[str, str] = Field(description="what each status that occurs means, and what to do")
     mean: dict[str, Column] | None = Field(None, description="over the runs, by coordinate")
     quantiles: Quantiles | None = None
     density: dict[str, Density] | None = Field(None, description="over time, by coordinate")
     columns: Written = "numbers"
     wall_time: float = Field(description="seconds")
+
+
+class EnsembleAnswer(EnsembleRuns, EnsembleTotals):
+    """All runs in the order of the values; of a grid the last quantity changes fastest."""

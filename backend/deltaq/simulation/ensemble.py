@@ -9,10 +9,9 @@ from __future__ import annotations
 
 import math
 import os
-from collections.abc import Callable
-from concurrent.futures import Executor, ThreadPoolExecutor
+from collections.abc import Callable, Iterator
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, replace
-from functools import partial
 
 import numpy as np
 from numpy.typing import NDArray
@@ -54,7 +53,6 @@ NEAR, MANY = 5, 1000  # the order of neighbours' series, and the steps up to whi
 # of many with two runs each, some come close to each other by chance.
 BELOW, OF_PAIRS = 1e-2, 2.0
 MOST_DRIVEN = 20_000  # steps that a drive may ask for, up to which motions go side by side
-OF_CLUSTER = 1024  # motions that are worked out together on a cluster
 MESH = GROUP  # ends of steps that are looked at, of each motion: of long ones every second, every fourth …
 GRAIN = 5e-12  # below that local tolerance rounding may do as much as the steps, and the one hide the other
 
@@ -85,8 +83,8 @@ class Ensemble:
         return replace(self, states=self.states[which], parameters=self.parameters[which])
 
     def limited(self, steps: int) -> Ensemble:
-        """The same with so many steps at most."""
-        return replace(self, problem=replace(self.problem, step_limit=steps))
+        """The same with so many steps at most, and no more than before."""
+        return replace(self, problem=replace(self.problem, step_limit=min(steps, self.problem.step_limit)))
 
 
 @dataclass(frozen=True)
@@ -134,36 +132,26 @@ def run_ensemble(
     tolerance: float,
     cancelled: Flag | None = None,
     report: Callable[[int], None] | None = None,
-    cluster: Executor | None = None,
 ) -> EnsembleMotion:
     """All motions to a tolerance of their coordinates; `report` hears how many are done.
 
     Scenes whose forces jump, ask for very short steps somewhere, or that have events, are run one by one: `simulate`
-    knows how. So are motions whose steps turn out to be blind. Large ones are worked out in parts where there is a
-    `cluster`; each motion is the same there, for none depends on what the others do.
+    knows how. So are motions whose steps turn out to be blind.
     """
-    flag = np.zeros(1, dtype=np.int64) if cancelled is None else cancelled
-    tell, largest, count = report or (lambda _done: None), largest_step(ensemble), len(ensemble)
-    if cluster is None or count <= OF_CLUSTER:
-        return _run_all(ensemble, tolerance, largest, flag, tell)
-    parts = [ensemble.chosen(np.arange(first, min(first + OF_CLUSTER, count))) for first in range(0, count, OF_CLUSTER)]
-    found = list[EnsembleMotion]()
-    for each in cluster.map(partial(_run_all, tolerance=tolerance, largest=largest), parts):
-        found.append(each)
-        tell(sum(len(one.outcomes) for one in found))
-    names = ("values", "rates", "errors", "worst", "steps", "blind")
-    arrays = {name: np.concatenate([getattr(each, name) for each in found]) for name in names}
-    return EnsembleMotion(found[0].times, outcomes=tuple(one for each in found for one in each.outcomes), **arrays)
+    return run_some(ensemble, tolerance, largest_step(ensemble), cancelled, report or (lambda _done: None))
 
 
-def _run_all(
+def run_some(
     ensemble: Ensemble,
     tolerance: float,
     largest: float,
     flag: Flag | None = None,
     tell: Callable[[int], None] = lambda _done: None,
 ) -> EnsembleMotion:
-    """All motions by steps up to the largest; 0 for those that lanes cannot do."""
+    """The same by steps up to the largest, which all motions share; 0 for those that lanes cannot do.
+
+    Each motion is the same whichever others are beside it.
+    """
     flag = np.zeros(1, dtype=np.int64) if flag is None else flag
     if largest == 0.0:
         return _one_by_one(ensemble, tolerance, flag, tell)
@@ -206,6 +194,13 @@ def warm(problem: Problem) -> None:
     # a motion that is seen through at once leaves the closer look to others
     mesh = Meshes(np.array([[0.0, problem.t_end]]), np.stack([states, states], axis=1), np.array([[2, 1, 0]]))
     Audit(problem, get_method("taylor")).watcher(MESH).step_by_step(mesh, parameters, 1e-6)
+
+
+def prepare(problem: Problem) -> None:
+    """Compiles the code for the lanes of a model, which is kept."""
+    shape = jet_of_model(problem.model, is_long=True, lanes=lanes_of_host()).shape
+    code_of_steps(shape)
+    code_of_neighbours(shape)
 
 
 def needs_single_runs(ensemble: Ensemble) -> bool:
@@ -251,9 +246,8 @@ def _run(
     sight = Sight(Audit(problem, get_method("taylor")), AHEAD * tolerance)
     runs = _within_reach(ensemble, times, steps, flag, tell, sight)
     errors = MARGIN * runs.errors[:, :, :n]
-    many = np.flatnonzero(runs.steps > MANY)
-    if len(many):
-        errors[many] = _by_finer_runs(ensemble.chosen(many), runs, many, steps, flag)
+    for many, most in _alike(runs.steps, MANY):
+        errors[many] = _by_finer_runs(ensemble.chosen(many).limited(most), runs, many, steps, flag)
     return _judged(ensemble, runs, errors, tolerance)
 
 
@@ -276,6 +270,16 @@ def _within_reach(
     return runs
 
 
+def _alike(steps: NDArray[np.int64], least: int) -> Iterator[tuple[NDArray[np.int64], int]]:
+    """Motions with more than `least` steps, those with about as many together, and the steps of finer runs of them.
+
+    These are twice as many as of any of them, and a power of two, so that no other motion has a say in it.
+    """
+    powers = np.where(steps > least, np.ceil(np.log2(np.maximum(steps, 1))).astype(np.int64), 0)
+    for power in np.unique(powers[powers > 0]).tolist():
+        yield np.flatnonzero(powers == power), 2 ** (power + 1)
+
+
 def _by_finer_runs(ensemble: Ensemble, runs: Members, which: NDArray[np.int64], steps: Steps, flag: Flag) -> Floats:
     """The errors of some runs by others that are finer and a little away, shape (motions, samples, n).
 
@@ -285,8 +289,7 @@ def _by_finer_runs(ensemble: Ensemble, runs: Members, which: NDArray[np.int64], 
     refinement = BySeries(t_end, SCHEME, AHEAD, BELOW)
     coarse, fine = refinement.pair(steps.tolerance, Pieces.whole(t_end))
     finer_steps = replace(fine, size=steps.size / APART, is_nudged=True)
-    most = min(2 * int(runs.steps[which].max()), ensemble.problem.step_limit)  # no more where the others were given up
-    finer = in_lanes(ensemble.limited(most), runs.times, finer_steps, flag)
+    finer = in_lanes(ensemble, runs.times, finer_steps, flag)
     runs.outcomes[which] = np.where(runs.outcomes[which] != FINE, runs.outcomes[which], finer.outcomes)
     runs.filled[which] = np.minimum(runs.filled[which], finer.filled)
     runs.samples[which] = np.where(np.isfinite(finer.samples).all(axis=2, keepdims=True), runs.samples[which], np.nan)
@@ -349,7 +352,8 @@ def _begun(ensemble: Ensemble, times: Floats, width: int, near: int, *, is_nudge
     count, recurrences = len(ensemble), ensemble.problem.model.recurrences
     states = np.hstack([ensemble.states, np.zeros((count, width - ensemble.states.shape[1]))])
     constants = np.ascontiguousarray(recurrences.constants(ensemble.parameters.T).T).reshape(count, -1)
-    changes = np.hstack([nudged(ensemble.states) - ensemble.states, recurrences.nudged(constants) - constants])
+    with np.errstate(invalid="ignore"):  # a constant that is out of range ends the motion
+        changes = np.hstack([nudged(ensemble.states) - ensemble.states, recurrences.nudged(constants) - constants])
     if is_nudged:
         states, constants = nudged(states), recurrences.nudged(constants)
     return Members(

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Generator, Iterable, Iterator, Mapping
 from concurrent.futures import Executor
 from dataclasses import dataclass, replace
+from operator import itemgetter
 from time import perf_counter
 
 import numpy as np
@@ -20,6 +21,7 @@ from ..mechanics.scene import Scene
 from .answer import Document
 from .columns import WRITERS, Column
 from .ensemble import Ensemble, EnsembleMotion, run_ensemble
+from .ensemble_parts import Part, in_parts, joined
 from .problem import Floats
 from .rounding import rounded, short
 from .service import problem_of, require_no_event
@@ -45,8 +47,50 @@ def run(
     asked, start = read(EnsembleRequest, document), perf_counter()
     scene = begun_scene(asked)
     varied = varied_of(asked, scene)
-    found = run_ensemble(varied.ensemble, asked.tolerance, report=report, cluster=cluster)
+    if cluster is None:
+        found = run_ensemble(varied.ensemble, asked.tolerance, report=report)
+    else:
+        found = joined(_reported(in_parts(varied.ensemble, asked.tolerance, cluster), report))
     return _answered(asked, scene, varied, found) | {"wall_time": perf_counter() - start}
+
+
+def _reported(parts: Iterable[Part], report: Callable[[int], None] | None) -> Iterator[Part]:
+    done = 0
+    for part in parts:
+        done += len(part)
+        if report is not None:
+            report(done)
+        yield part
+
+
+def run_in_parts(
+    document: Mapping[str, object], cluster: Executor | None = None
+) -> Generator[Document, None, Document]:
+    """The same, with what is told of some runs as soon as they are done; what is told of all of them is returned.
+
+    Columns of the parts, put together in the order of `first`, are those of the whole. Runs are not kept unless there
+    are to be statistics of them.
+    """
+    asked, start = read(EnsembleRequest, document), perf_counter()
+    scene = begun_scene(asked)
+    varied = varied_of(asked, scene)
+    names, count = [coordinate.name for coordinate in scene.free], len(varied.ensemble)
+    times, outcomes = np.zeros(0), list[tuple[int, Document]]()
+    values = np.empty((count, asked.samples, len(names))) if asked.statistics else None
+    for part in in_parts(varied.ensemble, asked.tolerance, cluster):
+        places = slice(part.first, part.first + len(part))
+        quantities = {name: each[places] for name, each in varied.quantities.items()}
+        outcomes.append((part.first, _first_of_each(part.motion)))
+        yield {"first": part.first, "runs": len(part), "of": count, **_of_runs(asked, names, quantities, part.motion)}
+        times = part.motion.times
+        if values is not None:
+            values[places] = part.motion.values
+    answer: Document = {"runs": count, "t": WRITERS[asked.columns].write(times), "columns": asked.columns}
+    answer["outcomes"] = {
+        status: told for _, each in sorted(outcomes, reverse=True, key=itemgetter(0)) for status, told in each.items()
+    }
+    statistics = {} if values is None else _statistics(asked, names, values)
+    return answer | statistics | {"wall_time": perf_counter() - start}
 
 
 def varied_of(asked: EnsembleRequest, scene: Scene) -> Varied:
@@ -171,13 +215,20 @@ def _combined(columns: list[Floats], how: str) -> list[Floats]:
 
 
 def _answered(asked: EnsembleRequest, scene: Scene, varied: Varied, found: EnsembleMotion) -> Document:
-    written, names = WRITERS[asked.columns].write, [coordinate.name for coordinate in scene.free]
+    names = [coordinate.name for coordinate in scene.free]
+    answer = {"runs": len(found.outcomes), "t": WRITERS[asked.columns].write(found.times)}
+    return answer | _of_runs(asked, names, varied.quantities, found) | _statistics(asked, names, found.values)
+
+
+def _of_runs(
+    asked: EnsembleRequest, names: list[str], quantities: Mapping[str, Floats], found: EnsembleMotion
+) -> Document:
+    """What is told of each run."""
+    written = WRITERS[asked.columns].write
     answer: Document = {
-        "runs": len(found.outcomes),
-        "t": written(found.times),
-        "quantities": {name: written(column) for name, column in varied.quantities.items()},
+        "quantities": {name: written(column) for name, column in quantities.items()},
         "status": [outcome.status for outcome in found.outcomes],
-        "outcomes": {outcome.status: (outcome.code, dict(outcome.parameters)) for outcome in found.outcomes[::-1]},
+        "outcomes": _first_of_each(found),
         "error": _errors(found.worst, asked.columns),
         "steps": found.steps.tolist(),
         "columns": asked.columns,
@@ -188,7 +239,12 @@ def _answered(asked: EnsembleRequest, scene: Scene, varied: Varied, found: Ensem
         answer["coordinates"] = {
             name: [_reached(np.ascontiguousarray(one[:, i]), written) for one in values] for i, name in enumerate(names)
         }
-    return answer | _statistics(asked, names, found)
+    return answer
+
+
+def _first_of_each(found: EnsembleMotion) -> Document:
+    """For each status the outcome of the first run that has it: what that says in words is said of all."""
+    return {outcome.status: (outcome.code, dict(outcome.parameters)) for outcome in found.outcomes[::-1]}
 
 
 def _errors(worst: Floats, columns: str) -> list[float | None] | str:
@@ -204,11 +260,13 @@ def _reached(values: Floats, written: Callable[[Floats], Column]) -> Column:
     return written(values[: int(missing.argmax())] if missing.any() else values)
 
 
-def _statistics(asked: EnsembleRequest, names: list[str], found: EnsembleMotion) -> Document:
-    """Over the runs that reached a sample; a sample that none reached is left out, with all behind it."""
+def _statistics(asked: EnsembleRequest, names: list[str], values: Floats) -> Document:
+    """Over the runs that reached a sample; a sample that none reached is left out, with all behind it.
+
+    `values` has shape (runs, samples, n).
+    """
     written, answer = WRITERS[asked.columns].write, Document()
-    reached = int(np.isfinite(found.values).any(axis=(0, 2)).sum())
-    values = found.values[:, :reached]
+    values = values[:, : int(np.isfinite(values).any(axis=(0, 2)).sum())]
     if "mean" in asked.statistics:
         mean = np.nanmean(values, axis=0)
         answer["mean"] = {name: written(np.ascontiguousarray(mean[:, i])) for i, name in enumerate(names)}

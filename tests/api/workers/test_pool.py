@@ -399,6 +399,40 @@ async def test_parts_are_heard_in_order_before_the_answer(make_pool: MakePool) -
     assert [json.loads(part)["number"] for part in (*heard, answer)] == list(range(300))
 
 
+async def test_worker_waits_until_its_parts_are_taken_and_none_is_lost(make_pool: MakePool) -> None:
+    pool, taken, may_take = make_pool(), list[bytes](), asyncio.Event()
+
+    async def take(part: bytes) -> None:
+        taken.append(part)
+        await may_take.wait()
+
+    running = asyncio.create_task(pool.run(job("count"), {"parts": 300}, take=take))
+    while not taken:
+        await asyncio.sleep(0.005)
+    await asyncio.sleep(0.3)
+    assert (len(taken), running.done()) == (1, False)
+    may_take.set()
+    answer = await running
+    assert [json.loads(part)["number"] for part in (*taken, answer)] == list(range(300))
+
+
+async def test_who_takes_no_parts_any_more_and_leaves_frees_the_worker(make_pool: MakePool) -> None:
+    pool, taken = make_pool(), list[bytes]()
+
+    async def take(part: bytes) -> None:
+        taken.append(part)
+        await asyncio.Event().wait()
+
+    running = asyncio.create_task(pool.run(job("count"), {"parts": 300}, take=take))
+    while not taken:
+        await asyncio.sleep(0.005)
+    running.cancel()
+    with suppress(asyncio.CancelledError):
+        await running
+    assert await run(pool, "echo", 1) == 1
+    assert len(taken) == 1
+
+
 async def test_failure_after_some_parts_is_a_failure(make_pool: MakePool) -> None:
     heard: list[bytes] = []
     pool = make_pool()

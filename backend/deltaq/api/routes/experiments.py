@@ -29,9 +29,10 @@ from ..body import StrictRoute
 from ..ending import Ending
 from ..flights import OnUpdate, ignore
 from ..languages import language_of
+from ..packing import unpack
 from ..problems import report_of
 from ..responses import packed, tagged
-from ..service import Service, service_of, unpack
+from ..service import Service, service_of
 from ..streams import MEDIA_TYPE, events
 from ..workers.job import Job
 from .common import COMPUTING, failures, question_of

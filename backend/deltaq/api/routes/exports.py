@@ -10,7 +10,8 @@ from fastapi import APIRouter, Path, Request, Response
 from ...contract.export import ExportRequest, Form
 from ..body import StrictRoute
 from ..costs import expected
-from ..service import service_of, unpack
+from ..packing import unpack
+from ..service import service_of
 from ..workers.job import Job
 from .common import COMPUTING, question_of
 

@@ -50,9 +50,10 @@ from ..costs import expected
 from ..languages import language_of
 from ..marking import LONGEST as STREAM_LONGEST
 from ..marking import Marking, streamed
+from ..packing import pack, unpack
 from ..problems import report_of
 from ..responses import packed
-from ..service import pack, service_of, unpack
+from ..service import service_of
 from ..streams import MEDIA_TYPE as EVENTS
 from ..workers.job import Job
 from .common import COMPUTING, LANGUAGE, SceneId, failures, question_of

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import asyncio
-from collections.abc import AsyncIterator, Callable, Sequence
+from collections.abc import AsyncIterator, Callable, Coroutine, Sequence
 from contextlib import asynccontextmanager, suppress
 from dataclasses import dataclass, field
 from threading import Event
@@ -15,10 +15,11 @@ from .message import encode_request
 from .occupancy import Slots
 from .queue import BEGUN, FairQueue, Place
 from .task import Task
-from .worker import PRELOAD, Listener, start_fork_server
+from .worker import LOOK_UP, PRELOAD, Listener, start_fork_server
 from .worker_thread import Limits, WorkerThread
 
 FIRST, AGAIN = 0.2, 1.0  # seconds after which one who waits is told so, and told again
+Take = Callable[[bytes], Coroutine[Any, Any, None]]
 TICK = 0.01  # seconds by which the event loop may call too early
 
 
@@ -50,6 +51,15 @@ class Asker:
 
 def _ignore(_said: object) -> None:
     """Nobody wants to hear it."""
+
+
+def _wait(taking: Coroutine[Any, Any, None], loop: asyncio.AbstractEventLoop, gone: Event) -> None:
+    """Waits in a thread until a part is taken, or nobody is there any more who would."""
+    taken = asyncio.run_coroutine_threadsafe(taking, loop)
+    while not gone.is_set():
+        with suppress(TimeoutError):
+            return taken.result(LOOK_UP)
+    taken.cancel()
 
 
 class Pool:
@@ -89,9 +99,11 @@ class Pool:
         account: Account = FREE,
         wait: Callable[[Place], object] | None = None,
         key: str = "",
+        take: Take | None = None,
     ) -> bytes:
         """The JSON of a job's answer. `on_part` receives its parts before, in the event loop; `account` pays.
 
+        Where none may be lost and many may come, `take` takes each instead, and the worker waits until it has.
         While the task waits, `wait` receives its place in the queue: the best one of all who ask for `key`. Raises
         InputError as the job raised it; else Overloaded, QuotaExceeded, DeadlineExceeded, MemoryExceeded, WorkerDied or
         JobFailed. It always ends: at once if the queue is full, after `queue_timeout` seconds if the task has not
@@ -99,7 +111,14 @@ class Pool:
         """
         account.admit()
         loop, gone = asyncio.get_running_loop(), Event()
-        listener = Listener(lambda part: loop.call_soon_threadsafe(on_part, part), gone.is_set)
+
+        def give(part: bytes) -> None:
+            if take is None:
+                loop.call_soon_threadsafe(on_part, part)
+            else:
+                _wait(take(part), loop, gone)
+
+        listener = Listener(give, gone.is_set)
         task = Task(job, encode_request(job.target, job.processor_time, document), listener, account, key=key)
         try:
             return await self._answer(task, wait)
