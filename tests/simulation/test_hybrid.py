@@ -20,9 +20,12 @@ from deltaq.mechanics.library import load_scene
 from deltaq.mechanics.scene import Scene
 from deltaq.mechanics.toml import read_toml
 from deltaq.mechanics.writing import write_scene
+from deltaq.model.modes import modes_of
 from deltaq.simulation.driver import simulate
+from deltaq.simulation.hybrid import run_on
 from deltaq.simulation.library import get_method
 from deltaq.simulation.reference import METHODS, Reference
+from deltaq.simulation.run import Steps
 from deltaq.simulation.service import problem_of, run
 from deltaq.simulation.trajectory import Trajectory
 
@@ -237,6 +240,23 @@ def test_dry_friction_shifts_the_centre_of_every_half_swing(method: str) -> None
     assert found.transitions[-1].time == pytest.approx(stop, abs=1e-10)
     assert np.abs(found.values[:, 0] - truth).max() < 1e-9
     assert found.outcome.status == "ok"
+
+
+@pytest.mark.parametrize("pattern", range(4))
+@pytest.mark.parametrize("stiffness", [20.0, 2e3, 2e7])
+def test_a_run_whose_rates_are_moved_by_rounding_turns_as_often_as_another(stiffness: float, pattern: int) -> None:
+    """Half swings last π/ω. At late times the acceleration is large beside the rate, which is 0 where it turns."""
+    spring = {"kind": "potential", "name": "spring", "energy": f"{stiffness}*x^2/2"}
+    friction = {"kind": "friction", "name": "mu", "coordinate": "x", "force": f"{stiffness}/1000"}
+    scene = on_line([spring, friction], value=1.0)
+    half = math.pi / math.sqrt(stiffness)
+    problem, modes = problem_of(scene, 40.5 * half, 2), modes_of(scene)
+    assert modes is not None
+    own, flag = replace(problem, model=modes.model), np.zeros(1, dtype=np.int64)
+    times, method = np.linspace(0.0, problem.t_end, 2), get_method("dop853")
+    found = run_on(own, modes, method, times, flag, Steps(0.1 * half, 1e-11, shaken=pattern))
+    assert [each.kind for each in found.transitions] == ["turn"] * 40
+    assert [each.time for each in found.transitions] == pytest.approx([half * k for k in range(1, 41)], rel=1e-9)
 
 
 @CLOSED_FORMS

@@ -24,7 +24,7 @@ from .pieces import Pieces
 from .problem import Floats, Problem
 from .run import Mesh, Run, Steps, run
 from .sliding import SlidingError
-from .transitions import NoDirectionError, Transition, UnsettledError, begun, passed
+from .transitions import NoDirectionError, Transition, UnsettledError, begun, passed, with_offsets
 
 MOST = 5000  # events in one run
 AT_ONCE = 50  # events at the same time, by rounding
@@ -236,7 +236,7 @@ def _shaken(current: ModeState, number: int, pattern: int) -> ModeState:
     size = np.abs(current.v) + current.time * np.abs(current.accelerations)
     change = SHAKE * size * np.cos(2.0 * np.arange(len(size)) + pattern * (number + 2.0))
     kept = current.moved_by(current.mass @ change) if len(current.kept[0]) else change
-    return replace(current, v=current.v + kept)
+    return with_offsets(replace(current, v=current.v + kept))
 
 
 def _falling(current: ModeState, event: Event) -> Event:

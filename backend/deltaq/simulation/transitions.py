@@ -290,7 +290,7 @@ def _resolved(current: ModeState, closed: frozenset[int], released: int | None, 
             sticking[lost] = False
             slips[lost] = _left(trial, lost, has_come=lost == come)
     found = replace(current, mode=replace(current.mode, flags=tuple(map(float, held)), slips=tuple(slips)))
-    return _offset(settled(found, [row for row in at_zero if not across[row]]))
+    return with_offsets(settled(found, [row for row in at_zero if not across[row]]))
 
 
 def _at_rest(current: ModeState, closed: frozenset[int], released: int | None, come: int | None) -> list[bool]:
@@ -357,7 +357,7 @@ def _lost(current: ModeState, held: list[bool]) -> int | None:
     return next((row for row in range(bounded, current.modes.rows) if held[row] and facts.reactions[row] <= 0.0), None)
 
 
-def _offset(current: ModeState) -> ModeState:
+def with_offsets(current: ModeState) -> ModeState:
     """Offsets that make all watched values positive: what has just happened does not happen again at once.
 
     What moves with the time alone, a table say, is somewhere else by what rounding does to the time.
