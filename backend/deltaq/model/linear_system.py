@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
+from numpy.typing import NDArray
 
 from .compiled import Floats
 from .layout import Layout
@@ -27,10 +29,16 @@ class LinearSystem:
 def linear_system(layout: Layout, table: Floats) -> LinearSystem:
     """The system of each row of `table`, shape (states, outputs): what `Model.motion` gives."""
     n, m, states = layout.degrees, len(layout.multipliers), len(table)
-    lower, right = np.tril_indices(n)
+    lower, right = _triangle(n)
     first = lower.size + n + (n + 1 if layout.is_powered else 0)
     mass = np.zeros((states, n, n))
     mass[:, lower, right] = mass[:, right, lower] = table[:, : lower.size]
     forces = table[:, lower.size : lower.size + n]
     rows = table[:, first : first + m * n].reshape(states, m, n)
     return LinearSystem(mass, forces, rows, table[:, first + m * n : first + m * n + m])
+
+
+@lru_cache(maxsize=64)
+def _triangle(n: int) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
+    """The rows and columns of M's lower triangle, row by row; behind an event they are asked for many times."""
+    return np.tril_indices(n)

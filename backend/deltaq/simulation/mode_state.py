@@ -140,7 +140,7 @@ class ModeState:
         """The values that are positive as long as the mode lasts, with its offsets: shape (watched,)."""
         return np.asarray(self.problem.model.events.table(self.row)[0])  # type: ignore[union-attr]
 
-    @property
+    @cached_property
     def kinetic(self) -> float:
         """½ q̇ᵀ M q̇, up to what does not change at an impact."""
         with np.errstate(over="ignore", invalid="ignore"):  # what that makes of it is asked for
