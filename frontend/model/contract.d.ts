@@ -7212,7 +7212,7 @@ export interface components {
         SceneDrawing: {
             /**
              * Vertical
-             * @description where the second axis points; up if empty
+             * @description where the last axis points; if empty, so that weights point down
              */
             vertical?: ("up" | "down") | null;
             /**

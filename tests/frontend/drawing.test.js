@@ -169,6 +169,21 @@ test("a scene without a drawing shows its bodies", () => {
   assert.deepEqual(kinds, ["ground", "trail", "rod", "pivot", "bob"]);
 });
 
+for (const pull of ["g", "-g"]) {
+  for (const vertical of /** @type {const} */ ([undefined, "up", "down"])) {
+    test(`a weight along ${pull} points to where places with such values are, in a drawing that says ${vertical ?? "nothing"}`, () => {
+      const weight = { kind: "gravity", name: "weight", acceleration: ["0", pull] };
+      const given = { ...scene, loads: [weight], drawing: { elements: [{ kind: "bob", at: "bob" }], vertical } };
+      const stage = stageOf(withDrawing(given, trajectory), trajectory, square(400));
+      const arrow = figureOf(stage, snapshotAt(trajectory, 0)).shapes.find(({ className }) => className.includes("load-weight"));
+      const [, from, , to] = numbers(arrow?.d);
+      const along = stage.project([0, 1])[1] - stage.project([0, 0])[1];
+      assert.equal(Math.sign(to - from), Math.sign(pull === "g" ? along : -along));
+      if (!vertical) assert.ok(to > from);
+    });
+  }
+}
+
 test("a spring begins and ends at its places, keeps its coils, and survives length zero", () => {
   const path = coil([0, 0], [0, 100], 8, 5);
   assert.ok(path.startsWith("M0 0L") && path.endsWith("L0 100"));

@@ -92,14 +92,13 @@ function inOrder(stage) {
 }
 
 /**
- * A scene that brings no drawing gets one from its motion.
+ * A scene that brings no drawing gets one from its motion, and one that does not say what is up gets that from gravity.
  * @param {import("../types.js").Scene} scene @param {import("../types.js").Trajectory} trajectory
  * @returns {import("../types.js").Scene}
  */
 export function withDrawing(scene, trajectory) {
-  if (scene.drawing?.elements?.length) return scene;
-  return {
-    ...scene,
-    drawing: { ...scene.drawing, vertical: verticalOf(scene), elements: sketchOf(scene, trajectory) },
-  };
+  const { vertical, elements } = scene.drawing ?? {};
+  if (elements?.length && vertical) return scene;
+  const drawn = elements?.length ? elements : sketchOf(scene, trajectory);
+  return { ...scene, drawing: { ...scene.drawing, vertical: verticalOf(scene), elements: drawn } };
 }
