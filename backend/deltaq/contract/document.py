@@ -178,7 +178,9 @@ class DrawnElement(Part):
 class SceneDrawing(Part):
     """How the scene is drawn."""
 
-    vertical: Literal["up", "down"] | None = Field(None, description="where the last axis points; if empty, so that weights point down")
+    vertical: Literal["up", "down"] | None = Field(
+        None, description="where the last axis points; if empty, so that weights point down"
+    )
     view: list[float] | None = Field(None, description="least and largest x, least and largest y")
     elements: list[DrawnElement] | None = Field(None, description="from back to front")
 
