@@ -201,8 +201,21 @@ def test_flat_parallelogram_ends_the_motion_where_it_may_fold() -> None:
     assert np.abs(found.values[:, 0] - np.cos(angle)).max() < 1e-8
 
 
+@pytest.mark.parametrize("accuracy", [{"tolerance": 1e-5}, {"step": 5e-5}], ids=str)
+@pytest.mark.parametrize("method", [name for name in method_ids() if name != "taylor"])
+def test_a_linkage_without_weight_turns_evenly(method: str, accuracy: dict[str, float]) -> None:
+    """q̈ = 0, towards which Newton's corrections in accelerations become ever smaller, and none is the last."""
+    found = simulate(problem_of(flat_linkage(), 0.6, 31), get_method(method), **accuracy)
+    assert found.outcome.status == "ok"
+    assert found.estimate is not None
+    evenly = np.column_stack([0.5 + 2.0 * found.times, 0.0 * found.times, 0.5 + 2.0 * found.times])
+    assert np.abs(found.values - evenly).max() <= found.estimate.worst
+
+
 @pytest.mark.parametrize("accuracy", [{"tolerance": 1e-9}, {"tolerance": 1e-5}, {"step": 0.01}], ids=str)
-@pytest.mark.parametrize("method", ["dop853", "dormand-prince-54", "rk4", "radau-5", "gauss-4", "implicit-midpoint"])
+@pytest.mark.parametrize(
+    "method", ["dop853", "dormand-prince-54", "rk4", "radau-5", "gauss-4", "implicit-midpoint", "newmark"]
+)
 @pytest.mark.parametrize("held", [flat_linkage(), equal_slider_crank()], ids=["flat", "upright"])
 def test_a_fork_is_told_as_one_by_whatever_fails_there(held: Scene, method: str, accuracy: dict[str, float]) -> None:
     """Close to a fork Newton's corrections fail, steps vanish, or rounding decides on a branch: no step would help.

@@ -185,6 +185,7 @@ def newton_iteration(
         floor = ROUNDING * (size + reach / (weights.beta * h * h))
         left = correction * (ratio / (1.0 - ratio) if 0.0 < ratio < 1.0 else 1.0)
         is_rounding = ratio > 0.3 and correction <= 64.0 * floor
+        is_rounding = is_rounding or correction <= ROUNDING * floor  # towards q̈ = 0: below what compensation holds
         if correction <= ROUNDING * size or left <= 0.1 * ROUNDING * size or is_rounding:
             update_state(weights, h, workspace)
             return FINE, iteration, slowness if iteration > 2 else 0.0
