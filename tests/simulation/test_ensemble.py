@@ -80,6 +80,35 @@ def test_a_hill_that_is_thinner_than_a_step_is_seen(width: float) -> None:
     assert np.all(true <= found.errors[:, -1, 0] + 1e-13)
 
 
+@pytest.mark.parametrize("before", [0.3, 2.0, 1000.0])
+@pytest.mark.parametrize("width", [0.02, 1e-3])
+def test_a_hill_on_a_long_way_is_seen(width: float, before: float) -> None:
+    """U = e^(−((x − c)/w)²)/8 some seconds before the end of 6000 steps, which are those of ÿ = −25 y beside it."""
+    t_end, hill = 2000.0, {"w": width, "c": 2000.0 - before}
+    load = {"kind": "potential", "name": "hill", "energy": "m*k*y^2/2 + m*exp(-((x - c)/w)^2)/8"}
+    body = {"p": ("m", ["x", "y"])}
+    scene = read_scene(document({"x": (0.0, 1.0), "y": (1.0, 0.0)}, {"m": 1.0, "k": 25.0, **hill}, body, [load]))
+    problem, starts = problem_of(scene, t_end, 3), np.linspace(0.0, 0.2, 5)
+    states = np.column_stack([starts, *np.tile([[1.0], [1.0], [0.0]], 5)])
+    found = run_ensemble(Ensemble(problem, states, np.repeat([problem.parameters], 5, axis=0)), 1e-8)
+    delay = width * quad(lambda y: 1.0 / np.sqrt(1.0 - 0.25 * np.exp(-(y**2))) - 1.0, -9.0, 9.0)[0]
+    true = np.abs(found.values[:, -1, 0] - (starts + t_end - delay))
+    is_told = np.array([outcome.status != "ok" for outcome in found.outcomes])
+    assert np.all((true <= found.errors[:, -1, 0] + 1e-12) | is_told)
+
+
+@pytest.mark.parametrize("capacity", [3, 8])
+def test_no_motion_depends_on_when_its_steps_are_looked_at(capacity: int, monkeypatch: pytest.MonkeyPatch) -> None:
+    """All lanes wait while some are looked at: bit for bit, they go on as if they had not."""
+    ensemble = cloud(problem_of(load_scene("double-pendulum"), 3.0, 31), 21)
+    whole = run_ensemble(ensemble, 1e-9)
+    monkeypatch.setattr("deltaq.simulation.ensemble.MESH", capacity)
+    parted = run_ensemble(ensemble, 1e-9)
+    for name in ("values", "rates", "errors", "worst", "steps"):
+        np.testing.assert_array_equal(getattr(parted, name), getattr(whole, name))
+    assert parted.outcomes == whole.outcomes
+
+
 def pulled(force: str, **parameters: float) -> Motion:
     """A mass at rest in the origin, under a force in units of its mass, for 10 s."""
     push = {**PUSH, "force": [f"m*({force})", "0"]}

@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 from ..model.tape import Tape
 from .kernels.audit import DEEPEST, GROUP, AuditWorkspace, Blind, Path, Rules, inspect, survey_times
 from .kernels.intervals import Ranges, TapeArrays
-from .kernels.sight import Meshes, Room, Slopes, find_blind, find_unsure
+from .kernels.sight import Boxes, Meshes, Room, Slopes, find_blind, find_unsure
 from .method import Method
 from .pieces import Pieces, Stretch
 from .problem import Floats, Problem
@@ -126,9 +126,16 @@ class Audit:
         operations, n, ranges = self._tape.codes.size, self.problem.degrees, self._ranges_of()
         room = Room(
             Slopes(*_columns(operations), np.zeros(operations), np.zeros(operations, dtype=np.int64)),
+            Boxes(
+                np.zeros((2 * n + 1, capacity)),
+                np.zeros((2 * n + 1, capacity)),
+                *_columns(capacity),
+                np.zeros(capacity),
+                np.zeros((2, ranges.inputs_low.size)),
+            ),
             _make_workspace(operations),
             Path(np.zeros(capacity), *(np.zeros((capacity, n)) for _ in range(3))),
-            np.zeros((2 + capacity, ranges.inputs_low.size)),
+            np.zeros((2, 2 * n + 1)),
             _make_blind(),
         )
         return Watcher(self, ranges, room)
@@ -219,16 +226,19 @@ class Watcher:
     ranges: Ranges
     room: Room
 
-    def blind(self, meshes: Meshes, parameters: Floats, tolerance: float) -> NDArray[np.bool_]:
-        """Which motions were blind in a step, for a tolerance of their coordinates: shape (motions,).
+    def blind(
+        self, meshes: Meshes, parameters: Floats, which: NDArray[np.int64], tolerance: float
+    ) -> NDArray[np.bool_]:
+        """Of some motions, `which`, whether they were blind in a step, for a tolerance of their coordinates.
 
-        `parameters` has shape (motions, parameters).
+        `parameters` has shape (motions, parameters); `which`, and what is returned, shape (some of them,).
         """
-        found, audit = np.zeros(len(parameters), dtype=np.int64), self.audit
-        find_unsure(audit.tape_arrays, self.ranges, meshes, parameters, audit.limit, self.room, found)
+        found, audit = np.zeros(len(which), dtype=np.int64), self.audit
+        find_unsure(audit.tape_arrays, self.ranges, meshes, parameters, which, audit.limit, self.room, found)
         unsure = np.flatnonzero(found)
         if len(unsure):
-            found[unsure] = self.step_by_step(meshes.chosen(unsure), parameters[unsure], tolerance)
+            some = which[unsure]
+            found[unsure] = self.step_by_step(meshes.chosen(some), parameters[some], tolerance)
         return found > 0
 
     def step_by_step(self, meshes: Meshes, parameters: Floats, tolerance: float) -> NDArray[np.int64]:
@@ -237,7 +247,7 @@ class Watcher:
         `parameters` has shape (motions, parameters).
         """
         audit, found = self.audit, np.zeros(len(parameters), dtype=np.int64)
-        seeds = audit.seeds(np.hstack([meshes.states[:, 0], meshes.times[:, :1], parameters]))
+        seeds = audit.seeds(np.hstack([meshes.states[:, :, 0], meshes.times[:, :1], parameters]))
         rules = Rules(audit.limit, audit.threshold(tolerance), 1.0)
         find_blind(audit.tape_arrays, self.ranges, meshes, parameters, seeds, rules, self.room, found)
         return found

@@ -20,7 +20,6 @@ from ..model.recurrences import nudged
 from .audit import USUAL, Audit
 from .driver import simulate
 from .integration import Flag
-from .kernels.audit import GROUP
 from .kernels.ensemble import Addresses, Members, integrate_members, make_lanes
 from .kernels.motion import FINE, STEP_LIMIT
 from .kernels.sight import Meshes
@@ -53,7 +52,7 @@ NEAR, MANY = 5, 1000  # the order of neighbours' series, and the steps up to whi
 # of many with two runs each, some come close to each other by chance.
 BELOW, OF_PAIRS = 1e-2, 2.0
 MOST_DRIVEN = 20_000  # steps that a drive may ask for, up to which motions go side by side
-MESH = GROUP  # ends of steps that are looked at, of each motion: of long ones every second, every fourth …
+MESH = 256  # ends of steps of each motion that are looked at together
 GRAIN = 5e-12  # below that local tolerance rounding may do as much as the steps, and the one hide the other
 
 
@@ -114,17 +113,23 @@ class Sight:
     audit: Audit
     tolerance: float
 
-    def over(self, members: Members, parameters: Floats, integrate: Callable[[Members], None]) -> None:
+    def over(self, members: Members, parameters: Floats, integrate: Callable[[Members], bool]) -> None:
         """Integrates motions, and writes which of those that came to the end were blind.
 
-        `parameters` has shape (motions, parameters).
+        `parameters` has shape (motions, parameters). `integrate` returns whether there is more to come; it is looked
+        at what has been gone in between.
         """
         count, width = members.states.shape[0], 2 * self.audit.problem.degrees
-        progress = np.tile(np.array([[0, 1, 0]]), (count, 1))
-        meshes = Meshes(np.zeros((count, MESH)), np.zeros((count, MESH, width)), progress)
-        integrate(members._replace(mesh_times=meshes.times, mesh_states=meshes.states, progress=meshes.progress))
-        is_blind = self.audit.watcher(MESH).blind(meshes, parameters, self.tolerance)
-        members.blind[:] = is_blind & (members.outcomes == FINE)
+        meshes = Meshes(np.empty((count, MESH)), np.empty((count, width, MESH)), np.zeros(count, dtype=np.int64))
+        members = members._replace(mesh_times=meshes.times, mesh_states=meshes.states, mesh_counts=meshes.counts)
+        watcher, goes_on = self.audit.watcher(MESH), True
+        while goes_on:
+            goes_on = integrate(members)
+            least = MESH // 2 if goes_on else 1  # few looks at long parts, not many at short ones
+            which = np.flatnonzero(meshes.counts > least)
+            members.blind[which] |= watcher.blind(meshes, parameters, which, self.tolerance)
+            meshes.go_on(which)
+        members.blind[members.outcomes != FINE] = 0
 
 
 def run_ensemble(
@@ -192,7 +197,7 @@ def warm(problem: Problem) -> None:
     states, parameters = problem.state[None, : 2 * problem.degrees], np.array(problem.parameters)[None, :]
     run_ensemble(Ensemble(problem, states, parameters), 1e-6)
     # a motion that is seen through at once leaves the closer look to others
-    mesh = Meshes(np.array([[0.0, problem.t_end]]), np.stack([states, states], axis=1), np.array([[2, 1, 0]]))
+    mesh = Meshes(np.array([[0.0, problem.t_end]]), np.stack([states, states], axis=2), np.array([2]))
     Audit(problem, get_method("taylor")).watcher(MESH).step_by_step(mesh, parameters, 1e-6)
 
 
@@ -330,8 +335,8 @@ def in_lanes(
             **{name: array[part] for name, array in members._asdict().items() if name != "times"}
         )
 
-        def integrate(each: Members) -> None:
-            integrate_members(lanes, each, steps.tolerance, steps.size, problem.step_limit, flag)
+        def integrate(each: Members) -> bool:
+            return bool(integrate_members(lanes, each, steps.tolerance, steps.size, problem.step_limit, flag))
 
         integrate(some) if sight is None else sight.over(some, ensemble.parameters[part], integrate)
         return len(some.states)
@@ -368,8 +373,8 @@ def _begun(ensemble: Ensemble, times: Floats, width: int, near: int, *, is_nudge
         np.zeros(count, dtype=np.int64),
         np.zeros(count),
         np.empty((count, 0)),
-        np.empty((count, 0, ensemble.states.shape[1])),
-        np.zeros((count, 3), dtype=np.int64),
+        np.empty((count, ensemble.states.shape[1], 0)),
+        np.zeros(count, dtype=np.int64),
         np.zeros(count, dtype=np.int64),
     )
 

@@ -20,7 +20,6 @@ from .audit import Audit
 from .kernels.aligned import aligned
 from .kernels.ensemble import MARGINS, NEW, NEW_REST, PIVOTS, SIZES, TOLERANCE, UNIT, WANTED
 from .kernels.motion import FINE, NOT_FINITE, SINGULAR, STEP_LIMIT, STEP_UNDERFLOW, TOO_LARGE
-from .kernels.plan import COUNT, STRIDE
 from .kernels.sight import Meshes
 from .kernels.step import LARGEST_VALUE
 from .kernels.taylor import ALWAYS_UNNOTICED, PLACES, ROOM, SHORTER, UNNOTICED
@@ -239,12 +238,10 @@ class March:
         order = np.argsort(~gone.taken, axis=0, kind="stable")  # the steps taken come first
         begins = np.vstack([self._records[0, m.RECORDED : m.RECORDED + n], gone.start[:1]])
         ends = gone.rows[order, -1, lanes]
-        path = np.concatenate([begins.T[:, None], ends.transpose(1, 0, 2)], axis=1)
-        progress = np.zeros((len(lanes), 3), dtype=np.int64)
-        progress[:, COUNT], progress[:, STRIDE] = gone.taken.sum(axis=0) + 1, 1
-        meshes = Meshes(np.ascontiguousarray(path[..., n]), np.ascontiguousarray(path[..., :n]), progress)
+        path = np.concatenate([begins.T[:, :, None], ends.transpose(1, 2, 0)], axis=2)
+        meshes = Meshes(np.ascontiguousarray(path[:, n]), np.ascontiguousarray(path[:, :n]), gone.taken.sum(axis=0) + 1)
         found, parameters = np.zeros_like(gone.taken), np.repeat(self._parameters, len(lanes), axis=0)
-        found[order[0], lanes] = self._watcher.blind(meshes, parameters, SEEN)
+        found[order[0], lanes] = self._watcher.blind(meshes, parameters, lanes, SEEN)
         return found
 
     def stop_behind(self, steps: Integers, lanes: Integers) -> None:

@@ -15,7 +15,6 @@ from .aligned import aligned
 from .compiler import inline, kernel
 from .loop import to_a_number
 from .motion import CANCELLED, FINE, NOT_FINITE, ROUNDING, SINGULAR, STEP_LIMIT, STEP_UNDERFLOW, TOO_LARGE, Floats
-from .plan import record_row
 from .pointer import call_jet
 from .step import LARGEST_VALUE
 from .taylor import ALWAYS_UNNOTICED, LEAST_OF_SURPRISING, MOST_ORDERS, ROOM, SHORTER, UNNOTICED, sign_change
@@ -37,6 +36,7 @@ ROWS = 13
 LEAST_JET = 2  # orders
 FIRST_SCALE = 2.0**20
 GOES_ON, RESTS, ENDED = 1, 2, 3
+NEXT, BUSY, ROW = 0, 1, 2  # of the turn
 SMALLER, MOST_UNITS = 2.0**-12, 8  # of the unit of time, where the first coefficients are out of range
 Integers = NDArray[np.int64]
 
@@ -49,7 +49,7 @@ class Members(NamedTuple):
     `reached` have shape (motions,). Where errors are wanted, `nudges` are changes of (q, q̇, constants) by rounding,
     shape (motions, 2n + constants), and `errors`, shape (motions, samples, 2n), receives the largest error up to each
     sample; else both are empty in their last axis. `mesh_times`, shape (motions, capacity), `mesh_states`
-    (motions, capacity, 2n) and `progress` (motions, 3) receive the ends of steps as `sight.Meshes`, with capacity 0 if
+    (motions, 2n, capacity) and `mesh_counts` (motions,) receive the ends of steps as `sight.Meshes`, with capacity 0 if
     they are not wanted; `blind`, shape (motions,), is for what is made of that: 1 where a step was blind.
     """
 
@@ -65,7 +65,7 @@ class Members(NamedTuple):
     reached: Floats
     mesh_times: Floats
     mesh_states: Floats
-    progress: Integers
+    mesh_counts: Integers
     blind: Integers
 
 
@@ -98,7 +98,8 @@ class Lanes(NamedTuple):
     `least` the largest step that may be tried, and `sizes_before` the steps last taken, shape (lanes,); `member` is the
     number of a motion, −1 for none, and `is_pending` whether a step waits for its verdict (1), or, negative, how often
     the first series was out of range. `is_cut` says whether it ends where one of so many `conditions` of the forces
-    changes.
+    changes. `turn`, shape (3,), has the motion that is taken up next, how many lanes are busy (−1 before they begin),
+    and the row of coefficients that comes next.
     """
 
     code: Addresses
@@ -130,6 +131,7 @@ class Lanes(NamedTuple):
     member: Integers
     is_pending: Integers
     is_cut: Integers
+    turn: Integers
 
 
 def make_lanes(
@@ -178,6 +180,7 @@ def make_lanes(
         np.full(count, -1, dtype=np.int64),
         np.zeros(count, dtype=np.int64),
         np.zeros(count, dtype=np.int64),
+        np.array([0, -1, 0], dtype=np.int64),
     )
 
 
@@ -204,9 +207,14 @@ def take_up(lanes: Lanes, members: Members, lane: int, member: int, near: float)
 
 @inline
 def record_end(lanes: Lanes, members: Members, lane: int, member: int) -> None:
-    """Records where a lane is in the mesh of its motion."""
-    progress, state = members.progress[member], lanes.new[:, lane]
-    record_row(members.mesh_times[member], members.mesh_states[member], progress, lanes.now[lane], state)
+    """Records where a lane is in the mesh of its motion, which has room for it."""
+    if members.mesh_times.shape[1] == 0:
+        return
+    place = members.mesh_counts[member]
+    members.mesh_times[member, place] = lanes.now[lane]
+    for d in range(members.mesh_states.shape[1]):
+        members.mesh_states[member, d, place] = lanes.new[d, lane]
+    members.mesh_counts[member] = place + 1
 
 
 @inline
@@ -390,34 +398,45 @@ def verdict_on(
     return GOES_ON if outcome == 1 else RESTS
 
 
+@inline
+def begin_all(lanes: Lanes, members: Members, largest: float) -> None:
+    """The first motions, one in each lane."""
+    count = members.states.shape[0]
+    for lane in range(lanes.now.size):
+        take_up(lanes, members, lane, lane if lane < count else -1, largest)
+        if lanes.member[lane] < 0:
+            lanes.sizes[lane] = largest
+    lanes.turn[NEXT], lanes.turn[BUSY], lanes.turn[ROW] = lanes.now.size, min(lanes.now.size, count), 0
+
+
 @kernel
 def integrate_members(
     lanes: Lanes, members: Members, tolerance: float, largest: float, limit: int, cancelled: Integers
-) -> None:
+) -> bool:
     """All motions from times[0] to times[-1], each with steps up to `largest` and `limit` steps at most.
 
-    `cancelled`, shape (1,), ends them when it is not 0.
+    `cancelled`, shape (1,), ends them when it is not 0. Returns whether some have not come to their end: where the mesh
+    of one is full, all wait until it is called again with room in all meshes.
     """
-    count, following, busy, row = members.states.shape[0], 0, 0, 0
-    judged = members.errors.shape[2]
-    end = members.times[members.times.size - 1]
-    for lane in range(lanes.now.size):
-        take_up(lanes, members, lane, following if following < count else -1, largest)
-        busy += 1 if following < count else 0
-        following += 1
-        if lanes.member[lane] < 0:
-            lanes.sizes[lane] = largest
-    while busy > 0:
+    count, judged, end = members.states.shape[0], members.errors.shape[2], members.times[members.times.size - 1]
+    room, is_full = members.mesh_times.shape[1], False
+    if lanes.turn[BUSY] < 0:
+        begin_all(lanes, members, largest)
+    while lanes.turn[BUSY] > 0 and not is_full:
+        row = lanes.turn[ROW]
         expand_all(lanes, row, tolerance, judged)
         for lane in range(lanes.now.size):
             verdict = verdict_on(lanes, row, lane, members, tolerance, limit, cancelled)
             if verdict == GOES_ON:
                 plan_lane(lanes, row, lane, largest, end)
+                is_full = is_full or members.mesh_counts[lanes.member[lane]] == room > 0
                 continue
             lanes.units[lane] = lanes.given[0, lane]  # its series is not known yet: it rests for this round
             if verdict == ENDED:
+                following = lanes.turn[NEXT]
                 take_up(lanes, members, lane, following if following < count else -1, largest)
-                busy -= 1 if following >= count else 0
-                following += 1
+                lanes.turn[BUSY] -= 1 if following >= count else 0
+                lanes.turn[NEXT] += 1
         advance_all(lanes, row, judged)
-        row = 1 - row
+        lanes.turn[ROW] = 1 - row
+    return bool(lanes.turn[BUSY] > 0)

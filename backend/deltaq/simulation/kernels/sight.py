@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...model.tape import ADD, ARCTANGENT_2, CONSTANT, INPUT, MULTIPLY, POWER
-from .audit import AuditWorkspace, Blind, Path, Rules, box_of_part, inspect
+from .audit import AuditWorkspace, Blind, Path, Rules, inspect
 from .compiler import inline, kernel
 from .intervals import (
     Ranges,
@@ -26,25 +26,47 @@ from .intervals import (
     swing_per_width,
 )
 from .motion import Floats
-from .plan import COUNT, STRIDE
 
 HALVES = 2.0  # a step whose halves are seen through is not blind
 Integers = NDArray[np.int64]
 
 
 class Meshes(NamedTuple):
-    """Where the steps of motions ended: (q, q̇) in `states`, shape (motions, capacity, 2n), at `times` (see `Plan`).
+    """Where the steps of motions ended: (q, q̇) in `states`, shape (motions, 2n, capacity), at `times`.
 
-    `times` has shape (motions, capacity), `progress` (motions, 3).
+    `times` has shape (motions, capacity); of each motion so many are filled as `counts`, shape (motions,), say.
     """
 
     times: Floats
     states: Floats
-    progress: Integers
+    counts: Integers
 
     def chosen(self, which: Integers) -> Meshes:
         """Those of some motions."""
-        return Meshes(self.times[which], self.states[which], self.progress[which])
+        return Meshes(self.times[which], self.states[which], self.counts[which])
+
+    def go_on(self, which: Integers) -> None:
+        """The last entry of some motions, none of them empty, becomes their first and only one."""
+        last = self.counts[which] - 1
+        self.times[which, 0], self.states[which, :, 0] = self.times[which, last], self.states[which, :, last]
+        self.counts[which] = 1
+
+
+class Boxes(NamedTuple):
+    """Between which bounds q, q̇ and t stay in each step: `low` and `high`, shape (2n + 1, capacity).
+
+    `sizes` of steps and `jumps` of q̈ at their ends have shape (capacity,), as do second derivatives at their `begins`
+    and `ends`. `moves`, shape (2, inputs), is how far inputs move in a step, at most, and in one of them: zero behind
+    (q, q̇, t).
+    """
+
+    low: Floats
+    high: Floats
+    sizes: Floats
+    jumps: Floats
+    begins: Floats
+    ends: Floats
+    moves: Floats
 
 
 class Slopes(NamedTuple):
@@ -62,12 +84,13 @@ class Slopes(NamedTuple):
 
 
 class Room(NamedTuple):
-    """What motions are looked at in: `path` has the capacity of the meshes.
+    """What motions are looked at in: `path` and `boxes` have the capacity of the meshes.
 
-    `spare`, shape (2 + capacity, inputs), is zero behind (q, q̇, t).
+    `spare` has shape (2, 2n + 1).
     """
 
     slopes: Slopes
+    boxes: Boxes
     workspace: AuditWorkspace
     path: Path
     spare: Floats
@@ -97,31 +120,60 @@ def choose(tape: TapeArrays, slopes: Slopes) -> None:
 
 
 @inline
-def fill_path(meshes: Meshes, motion: int, path: Path) -> None:
-    """The mesh of a motion as a path; q̈ of its cubics jumps at the ends of steps.
+def find_jumps(times: Floats, q: Floats, v: Floats, count: int, boxes: Boxes) -> None:
+    """How far q̈ of the cubics through q and q̇ jumps at the ends of steps, into `boxes.jumps`; `sizes` are known.
 
-    Of `path`, whose arrays have the length of the mesh, all is written.
+    Of `times`, `q` and `v` of one coordinate, shape (capacity,), so many entries count. Where steps are as short as
+    rounding q̈ means nothing; at the two ends nothing is told, and it is taken to jump as beside them.
     """
-    count, n = path.times.size, path.q.shape[1]
-    brief = 1e-13 * meshes.times[motion, count - 1]
-    for k in range(count):
-        path.times[k] = meshes.times[motion, k]
-        for d in range(n):
-            path.q[k, d], path.v[k, d] = meshes.states[motion, k, d], meshes.states[motion, k, n + d]
+    sizes, begins, ends, jumps = boxes.sizes, boxes.begins, boxes.ends, boxes.jumps
+    brief = 1e-13 * times[count - 1]
+    for k in range(count - 1):
+        per_step = 1.0 / sizes[k]
+        slope = (q[k + 1] - q[k]) * per_step
+        begins[k] = (6.0 * slope - 4.0 * v[k] - 2.0 * v[k + 1]) * per_step
+        ends[k] = (2.0 * v[k] + 4.0 * v[k + 1] - 6.0 * slope) * per_step
+    for k in range(1, count - 1):
+        jump = abs(begins[k] - ends[k - 1])
+        jumps[k] = jump if jump < np.inf and min(sizes[k - 1], sizes[k]) > brief else 0.0
+    jumps[0] = jumps[1] if count > 2 else 0.0
+    jumps[count - 1] = jumps[count - 2]
+
+
+@inline
+def bound_steps(times: Floats, states: Floats, count: int, boxes: Boxes) -> None:
+    """The boxes of all steps of a mesh, as those of `box_of_part`.
+
+    Of `times`, shape (capacity,), and `states`, shape (2n, capacity), so many entries count. Loops go along the mesh,
+    so that processors take several steps at once.
+    """
+    n, sizes, jumps = states.shape[0] // 2, boxes.sizes, boxes.jumps
+    since, until = boxes.low[2 * n], boxes.high[2 * n]
+    for k in range(count - 1):
+        since[k], until[k], sizes[k] = times[k], times[k + 1], times[k + 1] - times[k]
     for d in range(n):
-        before = np.nan
+        q, v = states[d], states[n + d]
+        find_jumps(times, q, v, count, boxes)
+        low, high, slowest, fastest = boxes.low[d], boxes.high[d], boxes.low[n + d], boxes.high[n + d]
         for k in range(count - 1):
-            h = path.times[k + 1] - path.times[k]
-            first, last = path.v[k, d], path.v[k + 1, d]
-            slope = (path.q[k + 1, d] - path.q[k, d]) / h
-            begin, end = (6.0 * slope - 4.0 * first - 2.0 * last) / h, (2.0 * first + 4.0 * last - 6.0 * slope) / h
-            jump = abs(begin - before)
-            path.jumps[k, d] = jump if jump < np.inf and h > brief else 0.0
-            before = end
-        if count > 2:
-            path.jumps[0, d], path.jumps[count - 1, d] = path.jumps[1, d], path.jumps[count - 2, d]
-        else:
-            path.jumps[count - 1, d] = 0.0
+            h, first, last, begin, end = sizes[k], q[k], q[k + 1], v[k], v[k + 1]
+            one, two = first + h * begin * (1.0 / 3.0), last - h * end * (1.0 / 3.0)
+            middle = 3.0 * (two - one) / h
+            jump = max(jumps[k], jumps[k + 1])
+            wide, fast = jump * h * h * (1.0 / 16.0), jump * h * 0.25
+            low[k], high[k] = min(first, last, one, two) - wide, max(first, last, one, two) + wide
+            slowest[k], fastest[k] = min(begin, middle, end) - fast, max(begin, middle, end) + fast
+
+
+@inline
+def join_boxes(boxes: Boxes, steps: int, ranges: Ranges) -> None:
+    """The box of the first steps together, into `ranges`, and how far inputs move in one of them at most."""
+    for d in range(boxes.low.shape[0]):
+        low, high = boxes.low[d], boxes.high[d]
+        least, most, furthest = low[0], high[0], 0.0
+        for k in range(steps):
+            least, most, furthest = min(least, low[k]), max(most, high[k]), max(furthest, high[k] - low[k])
+        ranges.inputs_low[d], ranges.inputs_high[d], boxes.moves[0, d] = least, most, furthest
 
 
 @inline
@@ -169,59 +221,73 @@ def sees_step(tape: TapeArrays, inputs: Floats, slopes: Slopes, limit: float) ->
 
 
 @inline
-def sees_all(tape: TapeArrays, ranges: Ranges, path: Path, slopes: Slopes, limit: float, spare: Floats) -> bool:
-    """Whether all steps of a path are seen through by the slopes over its box.
+def sees_all(tape: TapeArrays, ranges: Ranges, steps: int, slopes: Slopes, limit: float, boxes: Boxes) -> bool:
+    """Whether so many steps, whose boxes are known, are seen through by the slopes over all of them.
 
-    `spare`, as in `Room`, has shape (2 + capacity, inputs).
+    All at once, as if each moved every input as far as any does, or one by one.
     """
-    width, steps = 2 * path.q.shape[1] + 1, path.times.size - 1
-    low, high, moves = spare[0], spare[1], spare[2:]
-    for k in range(steps):
-        box_of_part(path, k, 0.0, 1.0, ranges)
-        for d in range(width):
-            least, most = ranges.inputs_low[d], ranges.inputs_high[d]
-            low[d] = least if k == 0 else min(low[d], least)
-            high[d] = most if k == 0 else max(high[d], most)
-            moves[k, d] = most - least
-    for d in range(width):
-        ranges.inputs_low[d], ranges.inputs_high[d] = low[d], high[d]
+    join_boxes(boxes, steps, ranges)
     bound_slopes(tape, ranges, slopes)
-    seen = 0
-    while seen < steps and sees_step(tape, moves[seen], slopes, limit):
-        seen += 1
-    return seen == steps
+    if sees_step(tape, boxes.moves[0], slopes, limit):
+        return True
+    for k in range(steps):
+        for d in range(boxes.low.shape[0]):
+            boxes.moves[1, d] = boxes.high[d, k] - boxes.low[d, k]
+        if not sees_step(tape, boxes.moves[1], slopes, limit):
+            return False
+    return True
 
 
 @inline
-def begin_motion(meshes: Meshes, motion: int, parameters: Floats, ranges: Ranges, whole: Path) -> Path:
-    """The path of a motion, which fills the first part of `whole`, and its parameters as bounds of themselves.
+def bound_parameters(parameters: Floats, ranges: Ranges, first: int) -> None:
+    """The parameters of a motion, shape (parameters,), as bounds of themselves behind so many inputs."""
+    for p in range(parameters.size):
+        ranges.inputs_low[first + p] = ranges.inputs_high[first + p] = parameters[p]
 
-    `parameters` has shape (motions, parameters).
-    """
-    count, first = meshes.progress[motion, COUNT], 2 * whole.q.shape[1] + 1
+
+@inline
+def path_of(meshes: Meshes, motion: int, room: Room) -> Path:
+    """The mesh of a motion as a path, in the first part of the room's."""
+    count, n, whole = meshes.counts[motion], meshes.states.shape[1] // 2, room.path
     path = Path(whole.times[:count], whole.q[:count], whole.v[:count], whole.jumps[:count])
-    fill_path(meshes, motion, path)
-    for p in range(parameters.shape[1]):
-        ranges.inputs_low[first + p] = ranges.inputs_high[first + p] = parameters[motion, p]
+    times, states = meshes.times[motion], meshes.states[motion]
+    for k in range(count):
+        path.times[k] = times[k]
+    for k in range(count - 1):
+        room.boxes.sizes[k] = times[k + 1] - times[k]
+    for d in range(n):
+        find_jumps(times, states[d], states[n + d], count, room.boxes)
+        for k in range(count):
+            path.q[k, d], path.v[k, d], path.jumps[k, d] = states[d, k], states[n + d, k], room.boxes.jumps[k]
     return path
 
 
 @kernel
 def find_unsure(
-    tape: TapeArrays, ranges: Ranges, meshes: Meshes, parameters: Floats, limit: float, room: Room, found: Integers
+    tape: TapeArrays,
+    ranges: Ranges,
+    meshes: Meshes,
+    parameters: Floats,
+    which: Integers,
+    limit: float,
+    room: Room,
+    found: Integers,
 ) -> None:
-    """Tells of each motion whether slopes leave it open that a step was blind: 1 in `found`, shape (motions,), else 0.
+    """Tells of some motions, `which`, whether slopes leave it open that a step was blind: 1 in `found`, else 0.
 
-    `parameters` has shape (motions, parameters); arguments may swing up to the `limit` in a part of a step that is seen
-    through.
+    `parameters` has shape (motions, parameters), `which` and `found` shape (some of them,); arguments may swing up to
+    the `limit` in a part of a step that is seen through.
     """
     choose(tape, room.slopes)
-    for motion in range(found.size):
-        found[motion] = 0
-        if meshes.progress[motion, COUNT] > 1:
-            path = begin_motion(meshes, motion, parameters, ranges, room.path)
-            longest = HALVES * limit * meshes.progress[motion, STRIDE]
-            found[motion] = 0 if sees_all(tape, ranges, path, room.slopes, longest, room.spare) else 1
+    width = meshes.states.shape[1]
+    for k in range(which.size):
+        motion, found[k] = which[k], 0
+        count = meshes.counts[motion]
+        if count > 1:
+            bound_parameters(parameters[motion], ranges, width + 1)
+            bound_steps(meshes.times[motion], meshes.states[motion], count, room.boxes)
+            is_seen = sees_all(tape, ranges, count - 1, room.slopes, HALVES * limit, room.boxes)
+            found[k] = 0 if is_seen else 1
 
 
 @kernel
@@ -240,8 +306,10 @@ def find_blind(
     `parameters` has shape (motions, parameters); `seeds`, shape (motions, outputs of the tape), bounds |∂q̈/∂output|.
     """
     for motion in range(found.size):
-        path = begin_motion(meshes, motion, parameters, ranges, room.path)
-        room.workspace.looked[0], room.blind.found[0] = 0, 0
-        own = Rules(rules.limit, rules.threshold, float(meshes.progress[motion, STRIDE]))
-        inspect(tape, ranges, path, seeds[motion : motion + 1], own, room.workspace, room.spare, room.blind)
-        found[motion] = 1 if room.blind.found[0] > 0 else 0
+        found[motion] = 0
+        if meshes.counts[motion] > 1:
+            path = path_of(meshes, motion, room)
+            bound_parameters(parameters[motion], ranges, meshes.states.shape[1] + 1)
+            room.workspace.looked[0], room.blind.found[0] = 0, 0
+            inspect(tape, ranges, path, seeds[motion : motion + 1], rules, room.workspace, room.spare, room.blind)
+            found[motion] = 1 if room.blind.found[0] > 0 else 0
