@@ -49,10 +49,7 @@ def written(result: Result, origins: Mapping[str, Mapping[str, Origins]], write:
         },
         "lagrangian": sums.sum("lagrangian", result.lagrangian),
         "equations": sums.each("equations", result.equations, is_equation=True),
-        "mass_matrix": {
-            **write.matrix(result.mass_matrix),
-            "terms": sums.entries("mass_matrix"),
-        },
+        "mass_matrix": {**write.matrix(result.mass_matrix), "terms": sums.entries("mass_matrix")},
         "forcing": {**write.vector(result.forcing), "terms": sums.rows("forcing")},
         "conserved": [sums.conserved(each) for each in result.conserved],
         "symmetry_search": {"generators": list(result.generators)},
