@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import pickle
+from typing import Any
 
 import pytest
 
@@ -45,6 +46,30 @@ def at_equation(code: str, offset: int, length: int, **parameters: str) -> tuple
     return (Problem(code, "/constraints/0/equation", offset, length, parameters),)
 
 
+def tied(code: str, *equations: str) -> Any:
+    """Equations of which the last is tied to all others."""
+    names = [f"law{index}" for index in range(len(equations))]
+    parameters = {"name": names[-1], "names": ", ".join(names)}
+    told = (Problem(code, f"/constraints/{len(equations) - 1}", parameters=parameters),)
+    laws = [{**equation(text), "name": name} for text, name in zip(equations, names, strict=True)]
+    return pytest.param(laws, told, id=f"{code}: {'; '.join(equations)}")
+
+
+FOLLOWS, CONTRADICTS, DEMANDS = "dependent-constraints", "contradictory-constraints", "constraints-on-coordinates"
+TIED = [
+    tied(FOLLOWS, "x = l", "y = l", "x + y = 2*l"),
+    tied(CONTRADICTS, "x = l", "y = l", "x + y = 3*l"),
+    tied(FOLLOWS, "x^2 + y^2 = l^2", "(x^2 + y^2)^2 = l^4"),
+    tied(CONTRADICTS, "x^2 + y^2 = l^2", "(x^2 + y^2)^2 = 2*l^4"),
+    tied(FOLLOWS, "dot(x) = l*omega", "dot(y) = l*omega", "dot(x) + dot(y) = 2*l*omega"),
+    tied(CONTRADICTS, "dot(x) = l*omega", "dot(y) = l*omega", "dot(x) + dot(y) = 3*l*omega"),
+    tied(CONTRADICTS, "x = l*omega*t", "x = 2*l*omega*t"),
+    tied(FOLLOWS, "x = l*omega*t", "dot(x) = l*omega"),
+    tied(CONTRADICTS, "x = l*omega*t", "dot(x) = 2*l*omega"),
+    tied(DEMANDS, "dot(x) = omega*y", "dot(x) = 2*omega*y"),
+    tied(DEMANDS, "x = l + l*omega*t", "dot(x) = omega*y"),
+    tied(DEMANDS, "x*dot(x) + y*dot(y) = l*l*omega", "x*dot(x) + y*dot(y) = l*omega*(x - y)"),
+]
 WRONG = [
     pytest.param([equation("x^2 = l")], at_equation("inconsistent-units", 6, 1, term="l", found="m", expected="m²")),
     pytest.param([equation("x + dot(x)^2*l = 0")], at_equation("constraint-not-linear", 4, 8, term="dot(x)^2")),
@@ -84,6 +109,7 @@ WRONG = [
             ),
         ),
     ),
+    *TIED,
     pytest.param(
         [rod(end="bobb")],
         (Problem("unknown-place", "/constraints/0/to", parameters={"name": "bobb", "suggestion": "bob"}),),

@@ -14,7 +14,8 @@ from ..errors import Problem
 from ..language.floats import evaluate
 from ..language.spelling import spell_rate
 from .conditions import Condition
-from .rows import NOTHING, Point, Row, dot, independent, minus, row_of, unit
+from .redundancy import position_on
+from .rows import NOTHING, Point, Row, dot, independent, minus, rate_of, row_of, unit
 
 POINTS = 5
 
@@ -23,28 +24,26 @@ def dependence_problems(
     conditions: Sequence[Condition], free: Sequence[str], points: Iterable[Point]
 ) -> Iterator[Problem]:
     """Constraints without effect on what is free, those that follow from others, and those that contradict them."""
-    found = [each for point in points if (each := _Rows.at(conditions, free, point)) is not None]
+    near = tuple(points)
+    found = [each for point in near if (each := _Rows.at(conditions, free, point)) is not None]
     idle = [i for i in range(len(conditions)) if found and all(each.is_idle(i) for each in found)]
     yield from (Problem("constraint-without-coordinates", f"/constraints/{i}") for i in idle)
     ties = [each.tie() for each in found]
     if not idle and ties and all(ties):
-        yield _tied([each.source for each in conditions], found, min(ties, key=len))
+        yield _tied(conditions, free, near, min(ties, key=len))
 
 
 @dataclass(frozen=True)
 class _Rows:
-    """At one configuration, the values of the conditions and the coefficients of the virtual displacements in each."""
+    """At one configuration, the coefficients of the virtual displacements in each condition."""
 
-    values: Row
     rows: tuple[Row, ...]
 
     @classmethod
     def at(cls, conditions: Sequence[Condition], free: Sequence[str], point: Point) -> _Rows | None:
         """None where something is not defined."""
         rows = tuple(row_of(condition, free, point) for condition in conditions)
-        values = tuple(evaluate(condition.value, point) for condition in conditions)
-        finite = all(math.isfinite(entry) for row in (values, *rows) for entry in row)
-        return cls(values, rows) if finite else None
+        return cls(rows) if all(math.isfinite(entry) for row in rows for entry in row) else None
 
     def is_idle(self, index: int) -> bool:
         return max(map(abs, self.rows[index])) <= NOTHING * max(abs(entry) for row in self.rows for entry in row)
@@ -75,22 +74,66 @@ class _Rows:
         return len(independent([*others, self.rows[index]], NOTHING)) == len(kept)
 
 
-def _tied(names: Sequence[str], found: list[_Rows], tie: tuple[int, ...]) -> Problem:
-    code = "contradictory-constraints" if _is_contradiction(found, tie) else "dependent-constraints"
-    parameters = {"name": names[tie[-1]], "names": ", ".join(names[i] for i in tie)}
+def _tied(
+    conditions: Sequence[Condition], free: Sequence[str], points: Sequence[Point], tie: tuple[int, ...]
+) -> Problem:
+    *others, last = (conditions[i] for i in tie)
+    code = _verdict([_left(others, last, free, points, point["t"]) for point in points])
+    parameters = {"name": last.source, "names": ", ".join(conditions[i].source for i in tie)}
     return Problem(code, f"/constraints/{tie[-1]}", parameters=parameters)
 
 
-def _is_contradiction(found: list[_Rows], tie: tuple[int, ...]) -> bool:
-    """Whether two conditions g and c g differ by a constant other than zero, so that both cannot hold."""
-    if len(tie) != 2:
-        return False
-    first, second = tie
-    differences = []
-    for each in found:
-        factor = dot(each.rows[first], each.rows[second]) / dot(each.rows[first], each.rows[first])
-        differences.append(each.values[second] - factor * each.values[first])
-    return min(map(abs, differences)) > NOTHING and max(differences) - min(differences) < NOTHING
+def _verdict(left: Sequence[Sequence[float]]) -> str:
+    """What a condition is beside those it depends on, by what is left of it where they hold, at each of some times.
+
+    Nothing: it follows. The same wherever they hold, but not nothing: both cannot hold. Something here, something else
+    there: together they demand more of the coordinates than either.
+    """
+    if all(abs(each) <= NOTHING for at_once in left for each in at_once):
+        return "dependent-constraints"
+    if all(max(at_once) - min(at_once) <= NOTHING for at_once in left if at_once):
+        return "contradictory-constraints"
+    return "constraints-on-coordinates"
+
+
+def _left(
+    others: Sequence[Condition], last: Condition, free: Sequence[str], points: Iterable[Point], time: float
+) -> list[float]:
+    """What the last condition is off by at points moved to where the others hold, all at one time.
+
+    Holonomic conditions count by themselves if all are, else by their rates; both relative to the size of their terms.
+    """
+    found, sizes, names = list[float](), [1.0], [spell_rate(name, 1) for name in free]
+    for point in points:
+        place = position_on(others, free, {**point, "t": time})
+        if place is None:
+            continue
+        if last.is_holonomic and all(each.is_holonomic for each in others):
+            off, moving = evaluate(last.value, place), [place[name] for name in free]
+        else:
+            place = {**place, **_rates_on(others, free, place)}
+            off, moving = rate_of(last, free, place), [place[name] for name in names]
+        found.append(off)
+        row = row_of(last, free, place)
+        sizes.append(sum(abs(part) * max(1.0, abs(each)) for part, each in zip(row, moving, strict=True)))
+    return [each / max(sizes) for each in found if math.isfinite(each)]
+
+
+def _rates_on(conditions: Sequence[Condition], free: Sequence[str], place: Point) -> dict[str, float]:
+    """The rates nearest to those of a point that keep all conditions there, whose rows are independent."""
+    names = [spell_rate(name, 1) for name in free]
+    rates, basis = dict(place), list[Row]()
+    for condition in conditions:
+        row, rest = row_of(condition, free, place), row_of(condition, free, place)
+        for each in (*basis, *basis):
+            rest = minus(rest, each, dot(rest, each))
+        if not dot(rest, rest) > NOTHING * NOTHING * dot(row, row):  # here it depends on those before
+            continue
+        along = unit(rest)  # moves what keeps the conditions before to what keeps this one as well
+        change = rate_of(condition, free, rates) / dot(row, along)
+        rates |= {name: rates[name] - change * part for name, part in zip(names, along, strict=True)}
+        basis.append(along)
+    return {name: rates[name] for name in names}
 
 
 def random_points(start: Point, coordinates: Sequence[str]) -> Iterator[Point]:

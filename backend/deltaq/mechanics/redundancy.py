@@ -58,6 +58,13 @@ def independence(conditions: Sequence[Condition], free: Sequence[str], start: Po
     return Independence(found, 0 if is_fixed else len(free) - len(found))
 
 
+def position_on(conditions: Sequence[Condition], free: Sequence[str], start: Point) -> Point | None:
+    """A point near `start` whose coordinates keep all holonomic conditions; None if none is found."""
+    held = _Held(tuple(conditions), tuple(free))
+    place = held.settled(start)
+    return None if place is None or held.worst(place) is not None else place
+
+
 @dataclass(frozen=True)
 class _Held:
     conditions: tuple[Condition, ...]

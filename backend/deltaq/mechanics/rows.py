@@ -30,6 +30,14 @@ def row_of(condition: Condition, free: Sequence[str], point: Point) -> Row:
     return tuple(growth(condition.value, still, spell_rate(name, 1), 1.0) / 2 for name in free)
 
 
+def rate_of(condition: Condition, free: Sequence[str], point: Point) -> float:
+    """u at a point, or the rate of g, to whose value its coordinates and rates count alike."""
+    if not condition.is_holonomic:
+        return evaluate(condition.value, point)
+    along = dot(row_of(condition, free, point), tuple(point[spell_rate(name, 1)] for name in free))
+    return along + (_slope(condition.value, point, "t") if "t" in Expression("", condition.value).names else 0.0)
+
+
 def _slope(node: Node, point: Point, name: str) -> float:
     near, far = (growth(node, point, name, step) for step in (STEP, 2 * STEP))
     return (8 * near - far) / (12 * STEP)
