@@ -32,6 +32,8 @@ Status = Literal[
 TriedStatus = Literal[Status, "too_slow"]
 # The same of a simpler model in the ladder, whose derivation may be refused.
 RungStatus = Literal[Status, "refused"]
+# How the search for points of a section along a motion ended: it never met it, lay in it, or met it as often as wanted.
+SectionStatus = Literal[RungStatus, "never_met", "contained", "full"]
 # What the linearization says of a state of rest.
 Stability = Literal["stable", "undecided", "unstable"]
 # What it leaves open: neighbours at rest, too; forces across the velocity that hold it; zero eigenvalues; friction.

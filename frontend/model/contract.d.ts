@@ -3395,6 +3395,7 @@ export interface components {
              * @description of each run
              */
             steps: number[];
+            section?: components["schemas"]["SectionPoints"] | null;
         };
         /**
          * EnsembleRequest
@@ -3434,6 +3435,21 @@ export interface components {
          *           ],
          *           "seed": 7
          *         }
+         *       }
+         *     }
+         * @example {
+         *       "samples": 2,
+         *       "scene": "double-pendulum",
+         *       "section": {
+         *         "direction": "both",
+         *         "value": "phi2"
+         *       },
+         *       "t_end": 5,
+         *       "vary": {
+         *         "initial.phi1.value": [
+         *           0.1,
+         *           0.2
+         *         ]
          *       }
          *     }
          */
@@ -3518,6 +3534,11 @@ export interface components {
              * @description whether the coordinates of every run are wanted
              */
             runs?: boolean;
+            /**
+             * @description where points of all runs are asked for
+             * @example null
+             */
+            section?: components["schemas"]["SectionRequest"] | null;
             /**
              * Columns
              * @description how arrays are written; base64: little-endian doubles
@@ -7544,6 +7565,74 @@ export interface components {
             value: number | null;
         };
         /**
+         * SectionPoints
+         * @description Where each run passed the section: a column for each, in the order of time.
+         *
+         *     A start that lies in the section counts. Points are as accurate as numbers allow, whatever the tolerance.
+         */
+        SectionPoints: {
+            /**
+             * Status
+             * @description of the search along each run: never_met, contained (all of it lies in the section), full (it has more points than were asked for), or how the run ended before its time; see `reasons`
+             * @example [
+             *       "ok",
+             *       "never_met"
+             *     ]
+             */
+            status: ("ok" | "event" | "stopped" | "cancelled" | "step_limit" | "singular_mass_matrix" | "diverged" | "newton_failed" | "stiff" | "unresolved" | "step_blind" | "horizon_reached" | "tolerance_missed" | "guide_jumps" | "singular_constraints" | "refused" | "never_met" | "contained" | "full")[];
+            /**
+             * T
+             * @description seconds
+             */
+            t: components["schemas"]["Column"][];
+            /**
+             * Coordinates
+             * @description by coordinate
+             */
+            coordinates: {
+                [key: string]: components["schemas"]["Column"][];
+            };
+            /**
+             * Rates
+             * @description by coordinate
+             */
+            rates: {
+                [key: string]: components["schemas"]["Column"][];
+            };
+            /**
+             * Error
+             * @description of coordinates and rates, the largest: absolute below 1, relative above; null (packed, NaN) where a run grazes the section, so that a neighbour has no such point
+             */
+            error: ((number | null)[] | string)[];
+            /**
+             * T Error
+             * @description seconds
+             */
+            t_error: ((number | null)[] | string)[];
+        };
+        /**
+         * SectionRequest
+         * @description Where points of all motions are asked for: where an expression passes zero.
+         */
+        SectionRequest: {
+            /**
+             * Value
+             * @description of coordinates, rates (dot(q)), parameters and t; an angle by itself passes zero at every turn
+             * @example phi1
+             */
+            value: string;
+            /**
+             * Direction
+             * @description which way it goes through zero
+             */
+            direction?: components["schemas"]["SectionRequestDirection"];
+            /**
+             * Points
+             * @description of each motion, at most; the first ones
+             */
+            points?: number;
+        };
+        /**
          * Sentences
          * @description Sentences by their keys, in sections.
          */
@@ -10339,6 +10428,12 @@ export interface components {
          * @enum {string}
          */
         ExpressionTextSyntax: "plain" | "latex";
+        /**
+         * SectionRequestDirection
+         * @default rising
+         * @enum {string}
+         */
+        SectionRequestDirection: "rising" | "falling" | "both";
     };
     responses: never;
     parameters: never;

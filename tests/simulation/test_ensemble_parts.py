@@ -61,7 +61,7 @@ def test_parts_put_together_are_the_whole(made: Callable[[], Ensemble]) -> None:
     parts = list(in_parts(ensemble, 1e-9))
     assert len(parts) > 1
     assert sorted(n for part in parts for n in range(part.first, part.first + len(part))) == list(range(len(ensemble)))
-    same(joined(parts), run_ensemble(ensemble, 1e-9))
+    same(joined(parts).motion, run_ensemble(ensemble, 1e-9))
 
 
 def test_parts_on_other_processes_give_the_same_answer(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -71,7 +71,7 @@ def test_parts_on_other_processes_give_the_same_answer(monkeypatch: pytest.Monke
     with ProcessPoolExecutor(1, mp_context=get_context("spawn")) as cluster:
         parts = list(in_parts(ensemble, 1e-9, cluster))
     assert [(part.first, len(part)) for part in parts] == [(0, 8), (8, 8), (16, 4)]
-    same(joined(parts), run_ensemble(ensemble, 1e-9))
+    same(joined(parts).motion, run_ensemble(ensemble, 1e-9))
 
 
 def test_where_a_part_fails_the_others_come_before_its_error(monkeypatch: pytest.MonkeyPatch) -> None:

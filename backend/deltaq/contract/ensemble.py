@@ -9,13 +9,15 @@ from typing import Annotated, Literal, Self
 from pydantic import ConfigDict, Discriminator, Field, Tag, model_validator
 from pydantic_core import PydanticCustomError
 
-from ..vocabulary import Status
-from .base import OF_KIND, Answer, AskedLanguage, Request, SceneWithInitialValues, examples, items
+from ..vocabulary import SectionStatus, Status
+from .base import OF_KIND, Answer, AskedLanguage, ExpressionText, Request, SceneWithInitialValues, examples, items
+from .experiments.poincare_section import Direction
 from .simulation import LARGEST_SPAN, USUAL_TOLERANCE, Base64, Column, Written
 
 MOST_RUNS = 100_000
 MOST_SECONDS = 500_000.0  # of all motions together
 MOST_NUMBERS = 20_000_000  # runs × samples
+MOST_POINTS = 250_000  # in a section, of all motions together
 LARGEST = 1e300  # of what values are made of: differences and sums of such numbers are numbers
 
 
@@ -59,6 +61,17 @@ Quantity = Annotated[str, Field(max_length=160)]
 Statistic = Literal["mean", "quantiles", "density"]
 
 
+class SectionRequest(Request):
+    """Where points of all motions are asked for: where an expression passes zero."""
+
+    value: ExpressionText = Field(
+        description="of coordinates, rates (dot(q)), parameters and t; an angle by itself passes zero at every turn",
+        examples=["phi1"],
+    )
+    direction: Direction = Field("rising", description="which way it goes through zero")
+    points: int = Field(100, ge=1, le=20_000, description="of each motion, at most; the first ones")
+
+
 class EnsembleRequest(SceneWithInitialValues):
     """A scene, and which of its initial values and parameters take which values."""
 
@@ -80,6 +93,7 @@ class EnsembleRequest(SceneWithInitialValues):
         examples=[[]],
     )
     runs: bool = Field(default=True, description="whether the coordinates of every run are wanted")
+    section: SectionRequest | None = Field(None, description="where points of all runs are asked for", examples=[None])
     columns: Written = Field("numbers", description="how arrays are written; base64: little-endian doubles")
     lang: AskedLanguage = None
 
@@ -97,6 +111,13 @@ class EnsembleRequest(SceneWithInitialValues):
             "runs": False,
             "statistics": ["mean", "quantiles", "density"],
             "vary": {"initial.phi1.value": {"normal": [1.0, 0.01], "count": 40, "seed": 7}},
+        },
+        {
+            "scene": "double-pendulum",
+            "t_end": 5.0,
+            "samples": 2,
+            "vary": {"initial.phi1.value": [0.1, 0.2]},
+            "section": {"value": "phi2", "direction": "both"},
         },
     )
 
@@ -120,6 +141,9 @@ class EnsembleRequest(SceneWithInitialValues):
         bounds = {"most_runs": MOST_RUNS, "most_seconds": MOST_SECONDS, "most_numbers": MOST_NUMBERS}
         if count > MOST_RUNS or count * self.t_end > MOST_SECONDS or count * self.samples > MOST_NUMBERS:
             raise PydanticCustomError("ensemble-too-large", "too large", told | bounds)
+        if self.section is not None and count * self.section.points > MOST_POINTS:
+            told = {"at": "/section/points", "runs": count, "points": self.section.points, "most_points": MOST_POINTS}
+            raise PydanticCustomError("ensemble-section-too-large", "too large", told)
         return self
 
 
@@ -137,6 +161,27 @@ class Density(Answer):
     values: tuple[Column, ...] = Field(description="for each sample a column of ρ, an entry for each interval")
 
 
+class SectionPoints(Answer):
+    """Where each run passed the section: a column for each, in the order of time.
+
+    A start that lies in the section counts. Points are as accurate as numbers allow, whatever the tolerance.
+    """
+
+    status: tuple[SectionStatus, ...] = Field(
+        description="of the search along each run: never_met, contained (all of it lies in the section), full (it has "
+        "more points than were asked for), or how the run ended before its time; see `reasons`",
+        examples=[["ok", "never_met"]],
+    )
+    t: tuple[Column, ...] = Field(description="seconds")
+    coordinates: dict[str, tuple[Column, ...]] = Field(description="by coordinate")
+    rates: dict[str, tuple[Column, ...]] = Field(description="by coordinate")
+    error: tuple[tuple[float | None, ...] | Base64, ...] = Field(
+        description="of coordinates and rates, the largest: absolute below 1, relative above; null (packed, NaN) where "
+        "a run grazes the section, so that a neighbour has no such point"
+    )
+    t_error: tuple[tuple[float | None, ...] | Base64, ...] = Field(description="seconds")
+
+
 class EnsembleRuns(Answer):
     """What is told of each run."""
 
@@ -149,6 +194,7 @@ class EnsembleRuns(Answer):
         "null (packed, NaN) of a run that came to no end"
     )
     steps: tuple[int, ...] = Field(description="of each run")
+    section: SectionPoints | None = None
     columns: Written = "numbers"
 
 

@@ -52,6 +52,7 @@ CODES: Mapping[str, str] = MappingProxyType(
         "request-step-and-tolerance": "request-step-and-tolerance",
         "ensemble-unlike": "ensemble-unlike",
         "ensemble-too-large": "ensemble-too-large",
+        "ensemble-section-too-large": "ensemble-section-too-large",
         "section-too-large": "section-too-large",
         "uncertainty-too-large": "uncertainty-too-large",
         "bifurcation-too-large": "bifurcation-too-large",

@@ -8,30 +8,27 @@ Sources: H. Poincaré, Les méthodes nouvelles III (1899), ch. 27; Hénon, Heile
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
-from types import MappingProxyType
 
 import numpy as np
 
 from ..contract.experiments.poincare_section import Direction, PoincareSectionRequest
-from ..errors import InputError, Parameter, RequestError, escaped
+from ..errors import Parameter, RequestError, escaped
 from ..errors import Problem as Mistake
 from ..language.expression import Expression
 from ..language.parser import parse
 from ..language.rewriting import written
-from ..language.tree import Rate, walk
 from ..mechanics.requests import inside
 from ..mechanics.scene import Scene
 from ..model.compiled import Compiled
 from ..model.observables import Observable, Observables
+from ..simulation.plane import SIGNS, parsed
 from ..simulation.problem import Floats, Problem
 from ..simulation.section import Surface
 from .period import clocks, period
 from .subject import Subject
 
-SIGNS: Mapping[Direction, int] = MappingProxyType({"rising": 1, "falling": -1, "both": 0})
 LOST = 1e-7  # of the energy along the scene's own motion: more than rounding takes
 COARSE = 1e-6  # from an angle to the next number: more than can be drawn is lost
 
@@ -142,17 +139,6 @@ def _require_energy(section: Section, path: Floats) -> None:
     if lost > LOST * scale:
         told = {"lost": float(f"{lost:.3g}"), "t": float(f"{path[-1, -1]:.3g}")}
         raise RequestError(Mistake("section-dissipation", "/scene", parameters=told))
-
-
-def parsed(text: str, scene: Scene, pointer: str) -> Expression:
-    """A function of coordinates, rates and the time. Raises InputError, at the pointer, for anything else."""
-    with inside(pointer):
-        found = parse(text, scene.names)
-        if not found.is_scalar:
-            raise InputError(Mistake("not-scalar"))
-        if found.has_derivatives or any(isinstance(node, Rate) and node.order > 1 for node in walk(found.tree)):
-            raise InputError(Mistake("section-derivative"))
-    return found
 
 
 def _usual_plane(scene: Scene, problem: Problem, path: Floats, *, is_driven: bool) -> Expression:

@@ -25,6 +25,7 @@ from ..mechanics.requests import inside
 from ..model.modes import Modes, modes_of
 from ..model.observables import Observables
 from ..simulation.derivatives import accelerations
+from ..simulation.plane import SIGNS, parsed
 from ..simulation.problem import Floats, Problem
 from ..simulation.service import require_no_event
 from .closing import Closing
@@ -33,7 +34,6 @@ from .hybrid_flow import Allowance, HybridFlow
 from .hysteresis import Settled, Sweep
 from .passages import PER_STEP, View
 from .period import clocks, common_period
-from .plane import SIGNS, parsed
 from .sliding import require_no_sliding
 from .subject import Subject, bounded, free_subject_of, hybrid_subject_of, parameter_of
 

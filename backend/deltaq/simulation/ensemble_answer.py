@@ -20,8 +20,10 @@ from ..mechanics.requests import begun_scene, inside
 from ..mechanics.scene import Scene
 from .answer import Document
 from .columns import WRITERS, Column
-from .ensemble import Ensemble, EnsembleMotion, run_ensemble
+from .ensemble import Ensemble, run_ensemble
 from .ensemble_parts import Part, in_parts, joined
+from .ensemble_section import Points, Section
+from .plane import SIGNS, parsed
 from .problem import Floats
 from .rounding import rounded, short
 from .service import problem_of, require_no_event
@@ -47,10 +49,11 @@ def run(
     asked, start = read(EnsembleRequest, document), perf_counter()
     scene = begun_scene(asked)
     varied = varied_of(asked, scene)
-    if cluster is None:
-        found = run_ensemble(varied.ensemble, asked.tolerance, report=report)
+    section = section_of(asked, scene, varied.ensemble)
+    if cluster is None and section is None:
+        found = Part(0, run_ensemble(varied.ensemble, asked.tolerance, report=report))
     else:
-        found = joined(_reported(in_parts(varied.ensemble, asked.tolerance, cluster), report))
+        found = joined(_reported(in_parts(varied.ensemble, asked.tolerance, cluster, section), report))
     return _answered(asked, scene, varied, found) | {"wall_time": perf_counter() - start}
 
 
@@ -77,11 +80,12 @@ def run_in_parts(
     names, count = [coordinate.name for coordinate in scene.free], len(varied.ensemble)
     times, outcomes = np.zeros(0), list[tuple[int, Document]]()
     values = np.empty((count, asked.samples, len(names))) if asked.statistics else None
-    for part in in_parts(varied.ensemble, asked.tolerance, cluster):
+    section = section_of(asked, scene, varied.ensemble)
+    for part in in_parts(varied.ensemble, asked.tolerance, cluster, section):
         places = slice(part.first, part.first + len(part))
         quantities = {name: each[places] for name, each in varied.quantities.items()}
-        outcomes.append((part.first, _first_of_each(part.motion)))
-        yield {"first": part.first, "runs": len(part), "of": count, **_of_runs(asked, names, quantities, part.motion)}
+        outcomes.append((part.first, _first_of_each(part)))
+        yield {"first": part.first, "runs": len(part), "of": count, **_of_runs(asked, names, quantities, part)}
         times = part.motion.times
         if values is not None:
             values[places] = part.motion.values
@@ -91,6 +95,23 @@ def run_in_parts(
     }
     statistics = {} if values is None else _statistics(asked, names, values)
     return answer | statistics | {"wall_time": perf_counter() - start}
+
+
+def section_of(asked: EnsembleRequest, scene: Scene, ensemble: Ensemble) -> Section | None:
+    """The section that a request means. Raises InputError, at its field, for one that motions cannot be followed to."""
+    if asked.section is None:
+        return None
+    model = ensemble.problem.model
+    if model.events is not None or model.switches is not None or model.recurrences.conditions:
+        raise RequestError(Mistake("ensemble-section-events", "/section"))
+    places = {f"parameters.{one.name}": place for place, one in enumerate(scene.parameters)}
+    varied = tuple(places[name] for name in asked.vary if name in places)
+    value = parsed(asked.section.value, model.scene, "/section/value")
+    found = Section(model.scene, value, SIGNS[asked.section.direction], asked.section.points, varied)
+    with inside("/section/value"):
+        if found.function.is_constant:
+            raise RequestError(Mistake("section-plane-constant", parameters={"plane": value.text[:80]}))
+    return found
 
 
 def varied_of(asked: EnsembleRequest, scene: Scene) -> Varied:
@@ -214,21 +235,19 @@ def _combined(columns: list[Floats], how: str) -> list[Floats]:
     return [np.ascontiguousarray(grid.ravel()) for grid in np.meshgrid(*columns, indexing="ij")]
 
 
-def _answered(asked: EnsembleRequest, scene: Scene, varied: Varied, found: EnsembleMotion) -> Document:
-    names = [coordinate.name for coordinate in scene.free]
-    answer = {"runs": len(found.outcomes), "t": WRITERS[asked.columns].write(found.times)}
-    return answer | _of_runs(asked, names, varied.quantities, found) | _statistics(asked, names, found.values)
+def _answered(asked: EnsembleRequest, scene: Scene, varied: Varied, found: Part) -> Document:
+    names, motion = [coordinate.name for coordinate in scene.free], found.motion
+    answer = {"runs": len(found), "t": WRITERS[asked.columns].write(motion.times)}
+    return answer | _of_runs(asked, names, varied.quantities, found) | _statistics(asked, names, motion.values)
 
 
-def _of_runs(
-    asked: EnsembleRequest, names: list[str], quantities: Mapping[str, Floats], found: EnsembleMotion
-) -> Document:
+def _of_runs(asked: EnsembleRequest, names: list[str], quantities: Mapping[str, Floats], part: Part) -> Document:
     """What is told of each run."""
-    written = WRITERS[asked.columns].write
+    written, found = WRITERS[asked.columns].write, part.motion
     answer: Document = {
         "quantities": {name: written(column) for name, column in quantities.items()},
         "status": [outcome.status for outcome in found.outcomes],
-        "outcomes": _first_of_each(found),
+        "outcomes": _first_of_each(part),
         "error": _errors(found.worst, asked.columns),
         "steps": found.steps.tolist(),
         "columns": asked.columns,
@@ -239,12 +258,28 @@ def _of_runs(
         answer["coordinates"] = {
             name: [_reached(np.ascontiguousarray(one[:, i]), written) for one in values] for i, name in enumerate(names)
         }
-    return answer
+    return answer if asked.section is None else answer | {"section": _of_points(asked, names, part.points)}
 
 
-def _first_of_each(found: EnsembleMotion) -> Document:
+def _of_points(asked: EnsembleRequest, names: list[str], points: tuple[Points, ...]) -> Document:
+    """What is told of the points of each run in the section."""
+    written, n = WRITERS[asked.columns].write, len(names)
+    states = [rounded(each.states, np.nan_to_num(each.errors)) for each in points]
+    columns = [[written(np.ascontiguousarray(each[:, i])) for each in states] for i in range(2 * n)]
+    return {
+        "status": [each.status for each in points],
+        "t": [written(rounded(each.times, np.nan_to_num(each.time_errors))) for each in points],
+        "coordinates": dict(zip(names, columns[:n], strict=True)),
+        "rates": dict(zip(names, columns[n:], strict=True)),
+        "error": [_errors(each.errors, asked.columns) for each in points],
+        "t_error": [_errors(each.time_errors, asked.columns) for each in points],
+    }
+
+
+def _first_of_each(part: Part) -> Document:
     """For each status the outcome of the first run that has it: what that says in words is said of all."""
-    return {outcome.status: (outcome.code, dict(outcome.parameters)) for outcome in found.outcomes[::-1]}
+    ends: Document = {one.status: (one.code, dict(one.parameters)) for one in part.points[::-1]}
+    return ends | {one.status: (one.code, dict(one.parameters)) for one in part.motion.outcomes[::-1]}
 
 
 def _errors(worst: Floats, columns: str) -> list[float | None] | str:

@@ -1,9 +1,9 @@
 """Many motions of one model going their steps side by side, several steps a round, with the series of each at hand.
 
 The step is that of `taylor` and so is the look at what it really did: a step that is worse than it seemed is taken
-again, shorter. Who looks at the steps may refuse one, too; the motion then goes on from its beginning. All motions
-share their parameters. Forces with kinks end a step where the argument of their condition changes its sign; pieces of
-the span bound the steps where the time alone moves the forces.
+again, shorter. Who looks at the steps may refuse one, too; the motion then goes on from its beginning. Forces with
+kinks end a step where the argument of their condition changes its sign; pieces of the span bound the steps where the
+time alone moves the forces.
 """
 
 from __future__ import annotations
@@ -106,10 +106,19 @@ class March:
 
     Each step is looked at in so many equal `parts`. With `twins` each motion goes along once more, behind all others:
     by much smaller local errors, with steps that are bounded by a little less, and from a start and with constants some
-    units in the last place away.
+    units in the last place away. The motions have the problem's parameters, or each its own, shape (motions, count).
     """
 
-    def __init__(self, problem: Problem, starts: Floats, steps: Steps, parts: int, *, twins: bool = False) -> None:
+    def __init__(
+        self,
+        problem: Problem,
+        starts: Floats,
+        steps: Steps,
+        parts: int,
+        *,
+        twins: bool = False,
+        parameters: Floats | None = None,
+    ) -> None:
         is_twin = np.repeat([False, True] if twins else [False], len(starts))
         self.problem, self.steps, self.count = problem, steps, len(is_twin)
         self.end_time, self.degrees, self.order = problem.t_end, problem.degrees, steps.order or 0
@@ -122,19 +131,22 @@ class March:
         recurrences = problem.model.recurrences
         self._conditions = len(recurrences.conditions)
         self._depth = self._most = 1 if self._conditions else MOST_STEPS
-        constants = recurrences.constants(np.array(problem.parameters))
-        self._layout = Layout(self.jet.shape.width, self.degrees, len(constants), self._most, parts)
-        self._call, self._jet = _CALL(marching().address), _CALL(self.jet.code.addresses["jet"])
+        shared = np.array(problem.parameters)[None, :]
+        own = np.repeat(shared, len(starts), axis=0) if parameters is None else parameters
+        constants = recurrences.constants(own.T).T.reshape(len(starts), -1)
+        self._layout = Layout(self.jet.shape.width, self.degrees, constants.shape[1], self._most, parts)
+        self._marching = marching()  # kept while it runs: another thread may have made its own for the next one
+        self._call, self._jet = _CALL(self._marching.address), _CALL(self.jet.code.addresses["jet"])
         self._steps = code_of_steps(self.jet.shape)  # kept while it runs
         self._measure, self._work = _CALL(self._steps.addresses["measure"]), aligned(self.jet.work)
         self._reached = np.zeros(self.count)
         self._watcher = Audit(problem, get_method("taylor")).watcher(self._most + 1)
-        self._parameters = np.array(problem.parameters)[None, :]
-        constants = np.where(is_twin, recurrences.nudged(constants)[:, None], constants[:, None])
+        self._parameters = np.tile(own, (1 + twins, 1))
+        constants = np.vstack([constants, recurrences.nudged(constants)]) if twins else constants
         states = np.hstack([starts, np.zeros((len(starts), self._layout.width - 2 * self.degrees))])
         states = np.vstack([states, nudged(states)]) if twins else states
         tolerances = steps.tolerance * np.where(is_twin, BELOW, 1.0)
-        self._take_in(np.arange(self.count), self._first_rows(states, constants, tolerances))
+        self._take_in(np.arange(self.count), self._first_rows(states, constants.T, tolerances))
         self._begin(steps.size)
 
     def _first_rows(self, states: Floats, constants: Floats, tolerances: Floats) -> Floats:
@@ -240,7 +252,7 @@ class March:
         ends = gone.rows[order, -1, lanes]
         path = np.concatenate([begins.T[:, :, None], ends.transpose(1, 2, 0)], axis=2)
         meshes = Meshes(np.ascontiguousarray(path[:, n]), np.ascontiguousarray(path[:, :n]), gone.taken.sum(axis=0) + 1)
-        found, parameters = np.zeros_like(gone.taken), np.repeat(self._parameters, len(lanes), axis=0)
+        found, parameters = np.zeros_like(gone.taken), self._parameters[np.maximum(gone.which, 0)]
         found[order[0], lanes] = self._watcher.blind(meshes, parameters, lanes, SEEN)
         return found
 

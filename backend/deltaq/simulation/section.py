@@ -35,17 +35,32 @@ class Surface:
     """Where h(q, q̇, t) = 0 and h rises (`direction` 1), falls (−1) or does either (0).
 
     `values` takes rows (q, q̇, t), shape (rows, 2n + 1), to h with its derivatives by each of them, shape (rows,
-    2n + 2); h means the same after a `turn`.
+    2n + 2); h means the same after a `turn`. Where h has numbers of its own for each motion, `parameters`, shape
+    (motions, count), they stand behind the time in what `values` takes.
     """
 
     values: Callable[[Floats], Floats]
     direction: int = 1
     turn: float = math.inf
+    parameters: Floats | None = None
 
-    def slopes(self, rows: Floats, rates: Floats) -> tuple[Floats, Floats]:
-        """h and ḣ, shape (…,), at rows (q, q̇, t) where (q, q̇) have these time derivatives."""
+    def at(self, rows: Floats, motions: Integers) -> Floats:
+        """h with its derivatives, shape (rows, 2n + 2), at rows (q, q̇, t) of motions of these numbers, shape (rows,).
+
+        Twins are numbered behind all motions, and have the same parameters.
+        """
+        if self.parameters is None:
+            return self.values(rows)
+        return self.values(np.column_stack([rows, self.parameters[motions % len(self.parameters)]]))
+
+    def slopes(self, rows: Floats, rates: Floats, motions: Integers) -> tuple[Floats, Floats]:
+        """h and ḣ, shape (…,), at rows (q, q̇, t) where (q, q̇) have these time derivatives.
+
+        `motions` are the numbers of the motions along the last axis but that of a row.
+        """
         count = rows.shape[-1]
-        found = self.values(rows.reshape(-1, count)).reshape(*rows.shape[:-1], count + 1)
+        each = np.broadcast_to(motions, rows.shape[:-1]).ravel()
+        found = self.at(rows.reshape(-1, count), each).reshape(*rows.shape[:-1], count + 1)
         return found[..., 0], (found[..., 1:-1] * rates).sum(axis=-1) + found[..., -1]
 
     def shift(self, values: Floats) -> Floats:
@@ -100,13 +115,14 @@ def follow(
     cancelled: Flag,
     *,
     twins: bool = False,
+    parameters: Floats | None = None,
 ) -> Iterator[tuple[Crossings, Standing]]:
     """The crossings of motions from `starts`, shape (motions, 2n), as they come, with where all stand.
 
     A motion ends at the problem's t_end, or with so many crossings. A start that lies in the plane is the first.
-    With `twins` (`march.March`) each motion has one, whose number is as much larger as there are motions.
+    With `twins` and `parameters` see `march.March`; the number of a twin is as much larger as there are motions.
     """
-    march = March(problem, starts, steps, PARTS, twins=twins)
+    march = March(problem, starts, steps, PARTS, twins=twins, parameters=parameters)
     search = _Search(surface, march, most)
     rounds = 0
     while march.goes_on:
@@ -179,7 +195,7 @@ class _Search:
         self.crossed, self._reach = np.zeros(march.count, dtype=np.int64), np.zeros(march.count)
         self._kept: list[Brackets] = []
         rows, rates = march.rows()
-        found = surface.values(rows)
+        found = surface.at(rows, np.arange(len(rows)))
         scale = (np.abs(found[:, 1:-1]) * np.abs(rows[:, :-1])).sum(axis=1)
         value, shift = found[:, 0], surface.shift(found[:, 0])
         is_zero = np.abs(value - shift) <= ZERO * np.maximum(scale, np.abs(value))
@@ -193,7 +209,7 @@ class _Search:
         """Some steps of all motions: those that see the plane well enough are taken, and searched for crossings."""
         gone = self.march.go()
         with np.errstate(all="ignore"):  # steps that are not taken may end anywhere
-            found = np.stack(self.surface.slopes(gone.rows, gone.rates))
+            found = np.stack(self.surface.slopes(gone.rows, gone.rates, gone.which))
         values, slopes = self._with_beginnings(gone, found)
         taken = self.march.settle(gone, self._is_unseen(values, slopes, gone.lengths))
         seen = _Looked(gone, taken, values, slopes)
@@ -263,7 +279,8 @@ class _Search:
         x, left, right, shift = (each[near] for each in (x, left, right, shift))
         a, b = seen.ends(*at)
         series = self.march.polynomials(at[0], at[2])
-        middle, value = _lowest(series, self.surface, a, b, a + x * (b - a), np.sign(left))
+        brackets = Brackets(seen.gone.which[at[2]], series, a, b, left, right, shift)
+        middle, value = _lowest(brackets, self.surface, a + x * (b - a))
         value = value - shift
         halves = ((a, middle, left, value), (middle, b, value, right))
         found = (self._places(seen, at, *half, shift).chosen(self.surface.is_crossed(*half[2:])) for half in halves)
@@ -317,13 +334,11 @@ def _extremum(left: Floats, right: Floats, falls: Floats, rises: Floats) -> tupl
     return x, left + x * (falls + x * (b + x * a))
 
 
-def _lowest(
-    series: Polynomials, surface: Surface, a: Floats, b: Floats, x: Floats, sign: Floats
-) -> tuple[Floats, Floats]:
-    """Place and value of the extremum of h between a and b, where `sign` ḣ turns from negative to positive."""
-    value = np.zeros_like(x)
+def _lowest(found: Brackets, surface: Surface, x: Floats) -> tuple[Floats, Floats]:
+    """Place and value of the extremum of h in each bracket, where |h| turns from falling to rising; x is near it."""
+    a, b, sign, value = found.a, found.b, np.sign(found.left), np.zeros_like(x)
     for _ in range(MOST_ROOT_STEPS):
-        value, slope = surface.slopes(*series.at(x))
+        value, slope = surface.slopes(*found.series.at(x), found.motions)
         is_before = slope * sign < 0.0
         a, b = np.where(is_before, x, a), np.where(is_before, b, x)
         x = 0.5 * (a + b)
@@ -346,7 +361,7 @@ def refined(found: Brackets, surface: Surface) -> Crossings:
     a, b, series = found.a.copy(), found.b.copy(), found.series
     theta = a + (b - a) * found.left / (found.left - found.right)
     for _ in range(MOST_ROOT_STEPS):
-        values, slopes = surface.slopes(*series.at(theta))
+        values, slopes = surface.slopes(*series.at(theta), found.motions)
         values = values - found.shift
         is_left = values * np.sign(found.left) > 0.0
         a, b = np.where(is_left, theta, a), np.where(is_left, b, theta)
@@ -357,7 +372,7 @@ def refined(found: Brackets, surface: Surface) -> Crossings:
         if (change <= 4.0 * np.spacing(theta)).all():
             break
     rows, rates = series.at(theta)
-    values, slopes = surface.slopes(rows, rates)
+    values, slopes = surface.slopes(rows, rates, found.motions)
     root = ~(np.abs(values - found.shift) > np.maximum(np.abs(found.left), np.abs(found.right)))
     return Crossings(found.motions[root], rows[root, -1], rows[root, :-1], slopes[root])
 
