@@ -11,16 +11,20 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from ..simulation.ensemble import Ensemble, in_lanes
+from ..simulation.audit import Audit
+from ..simulation.ensemble import Ensemble, Sight, in_lanes
 from ..simulation.integration import Flag
-from ..simulation.march import Integers, Truths
+from ..simulation.library import get_method
+from ..simulation.march import SEEN, Integers, Truths
 from ..simulation.problem import Floats, Problem
 from ..simulation.run import Steps
 from ..simulation.section import Surface
+from ..simulation.watched import watched
 from .interpolation import crossings
 
 TOLERANCE, FINE = 1e-12, 1e-16  # local: of a sweep, and of derivatives
 NUDGE, EARLY = 2e-4, 1e-3  # of the scales and of the time: what differences leave out is as small as rounding
+PARTS = 2.0  # of the longest step: how far a motion with a thin force on its way is followed at once
 STENCIL, WEIGHTS = np.array([1.0, -1.0, 2.0, -2.0]), np.array([8.0, -8.0, -1.0, 1.0]) / 12.0
 
 
@@ -113,10 +117,16 @@ class Flow:
         """
         parameters = np.tile(np.array(self.problem.parameters), (len(values), 1))
         parameters[:, self.place] = values
-        members = in_lanes(
-            Ensemble(self.problem, states, parameters), times, Steps(self.largest, tolerance), self.cancelled
-        )
-        return Traced(members.samples[:, :, : 2 * self.problem.degrees], members.outcomes, members.steps)
+        ensemble, steps = Ensemble(self.problem, states, parameters), Steps(self.largest, tolerance)
+        taylor = get_method("taylor")
+        audit = Audit(replace(self.problem, t_end=float(times[-1])), taylor)
+        sight = None if self.problem.model.recurrences.conditions else Sight(audit, SEEN)
+        members = in_lanes(ensemble, times, steps, self.cancelled, sight=sight)
+        found = Traced(members.samples[:, :, : 2 * self.problem.degrees], members.outcomes, members.steps)
+        for place in np.flatnonzero(members.blind).tolist():
+            again = watched(ensemble.member(place), taylor, times, steps, SEEN, PARTS * self.largest, self.cancelled)
+            found.states[place], found.outcomes[place], found.steps[place] = again.states, again.outcome, again.steps
+        return found
 
     def passed(self, value: float, state: Floats, times: Floats, surface: Surface) -> Passed:
         """Where the motion from a state, shape (2n,), passes a plane, looked at between `times`, shape (times,)."""

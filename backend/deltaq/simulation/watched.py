@@ -1,0 +1,70 @@
+"""A motion at given times, by steps of which none passes over a force that is thinner than itself.
+
+It is audited part by part, each short enough to meet few such forces: what is behind one that was missed is another
+motion, in which nothing can be found beforehand.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from .audit import Audit
+from .integration import Flag
+from .kernels.motion import FINE, STEP_UNDERFLOW
+from .method import Method
+from .pieces import Pieces
+from .problem import Floats, Problem
+from .run import Run, Steps
+from .run import run as run_once
+
+ROUNDS = 12  # of a part, each with shorter steps where the one before was blind
+
+
+@dataclass(frozen=True)
+class Watched:
+    """The `states` (q, q̇) at the times, shape (times, 2n), NaN behind where the motion ended with an `outcome`."""
+
+    states: Floats
+    outcome: int
+    steps: int
+
+
+def watched(
+    problem: Problem, method: Method, times: Floats, steps: Steps, tolerance: float, longest: float, cancelled: Flag
+) -> Watched:
+    """The problem's motion at `times`, shape (times,), in parts up to the `longest`, in seconds.
+
+    `steps` bounds them and their local errors; what moves coordinates by less than the `tolerance` may be missed.
+    """
+    state, taken = problem.state[: 2 * problem.degrees], 0
+    states = np.full((len(times), len(state)), np.nan)
+    states[0] = state
+    for place in range(1, len(times)):
+        start, end = float(times[place - 1]), float(times[place])
+        ends = np.linspace(start, end, 1 + int(np.ceil((end - start) / longest)))
+        for k in range(1, len(ends)):
+            n = problem.degrees
+            own = replace(problem, values=tuple(state[:n].tolist()), rates=tuple(state[n:].tolist()), t_end=ends[k])
+            found, outcome = _seen(own, method, ends[k - 1 : k + 1], steps, tolerance, cancelled)
+            taken += found.result.steps
+            if outcome != FINE:
+                return Watched(states, outcome, taken)
+            state = found.states[-1, : 2 * n]
+        states[place] = state
+    return Watched(states, FINE, taken)
+
+
+def _seen(
+    problem: Problem, method: Method, times: Floats, steps: Steps, tolerance: float, cancelled: Flag
+) -> tuple[Run, int]:
+    """A run between two times with steps that see all that matters, and how it ended."""
+    audit, pieces = Audit(problem, method), Pieces.whole(float(times[-1]))
+    for _ in range(ROUNDS):
+        found = run_once(problem, method, times, cancelled, replace(steps, pieces=pieces, is_recorded=True))
+        blind = audit.after(found, tolerance) if found.result.outcome == FINE else ()
+        if not blind:
+            return found, found.result.outcome
+        pieces = pieces.with_bounds([(each.start, each.end, each.step) for each in blind])
+    return found, STEP_UNDERFLOW
