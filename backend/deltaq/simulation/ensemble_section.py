@@ -34,7 +34,8 @@ from .section import Crossings, Standing, Surface, follow
 TOLERANCE, ORDER = 1e-16, 36
 LARGEST_STEP = 0.05  # over the span
 MOST_STEPS = 20_000  # of one motion: one that comes close to a pole would keep all others waiting
-FACTOR, ROUNDING = 4.0, 2.0**-51  # of the difference of two runs that are both as wrong; of a point by itself
+FACTOR, ROUNDING = 6.0, 2.0**-51  # of the difference of two runs that are both as wrong; of a point by itself
+GRAZES = 0.1  # |ḣ| over that of most points, below which a point is as wrong as h is slow
 NEAR = 0.25  # of the time between points: what is farther away is another point
 LOST = 0.1  # an error this large, absolute below 1 and relative above, leaves no digit
 STAYS = 1e-9  # |h| over its scale, below which a motion is in the section all the time
@@ -112,12 +113,12 @@ def points_of(ensemble: Ensemble, section: Section, largest: float, flag: Flag) 
     motions, rows, speeds = motions[order], rows[order], speeds[order]
     rounding, scales = _rounded(surface, motions, rows, speeds)
     count, ends = len(ensemble), np.searchsorted(motions, np.arange(1, 2 * len(ensemble)))
-    of_rows, of_rounding, of_scales = (np.split(each, ends) for each in (rows, rounding, scales))
+    of_rows, of_speeds, of_rounding, of_scales = (np.split(each, ends) for each in (rows, speeds, rounding, scales))
     begins = np.column_stack([ensemble.states, np.zeros(count)])
     first = _scale(surface.at(begins, np.arange(count)), begins)
     told = []
     for index in range(count):
-        errors = _errors(of_rows[index], of_rounding[index], of_rows[count + index])
+        errors = _errors(of_rows[index], of_speeds[index], of_rounding[index], of_rows[count + index])
         contained = standing.reach[index] <= STAYS * max(first[index], of_scales[index].max(initial=0.0))
         ended = _Ended(int(standing.outcomes[index]), float(standing.reached[index]), bool(contained))
         told.append(_told(ended, section, problem.t_end, of_rows[index], errors))
@@ -151,8 +152,12 @@ def _rounded(surface: Surface, motions: Integers, rows: Floats, speeds: Floats) 
     return np.nan_to_num(found, nan=np.inf), scales
 
 
-def _errors(mine: Floats, rounding: Floats, theirs: Floats) -> Floats:
-    """Errors of states and of times, shape (2, points), by the twin's point next to each in time; NaN without one."""
+def _errors(mine: Floats, speeds: Floats, rounding: Floats, theirs: Floats) -> Floats:
+    """Errors of states and of times, shape (2, points), by the twin's point next to each in time; NaN without one.
+
+    What h is wrong by never falls with time, nor does what states are wrong by where the section is not grazed: twins
+    come close to each other by chance.
+    """
     errors = np.full((2, len(mine)), np.nan)
     if not len(mine) or not len(theirs):
         return errors
@@ -163,8 +168,13 @@ def _errors(mine: Floats, rounding: Floats, theirs: Floats) -> Floats:
     apart, sizes = np.abs(theirs[nearest] - mine), np.maximum(1.0, np.abs(mine[:, :-1]))
     gaps = np.diff(times, prepend=-np.inf, append=np.inf)
     is_near = apart[:, -1] <= NEAR * np.minimum(np.minimum(gaps[:-1], gaps[1:]), max(times[-1], 1.0))
-    errors[0, is_near] = (FACTOR * (apart[:, :-1] / sizes).max(axis=1) + ROUNDING)[is_near]
-    errors[1, is_near] = (FACTOR * apart[:, -1] + rounding)[is_near]
+    fast, of_states = np.abs(speeds), (apart[:, :-1] / sizes).max(axis=1)
+    is_clear = is_near & (fast >= GRAZES * np.median(fast))
+    lasting = np.maximum.accumulate(np.where(is_clear, of_states, 0.0))
+    with np.errstate(divide="ignore", invalid="ignore"):
+        late = np.maximum.accumulate(np.where(is_near, fast * apart[:, -1], 0.0)) / fast
+    errors[0, is_near] = (FACTOR * np.maximum(of_states, lasting) + ROUNDING)[is_near]
+    errors[1, is_near] = (FACTOR * np.maximum(apart[:, -1], late) + rounding)[is_near]
     return errors
 
 
