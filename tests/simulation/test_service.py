@@ -9,6 +9,7 @@ import math
 import subprocess
 import sys
 from time import sleep
+from typing import Any
 
 import numpy as np
 import pytest
@@ -262,6 +263,13 @@ def test_an_answer_that_ends_has_all_its_columns_up_to_there() -> None:
     assert answer["multipliers"] == {"S": whole["multipliers"]["S"][:6]}
 
 
+def rubbed(scene: Scene) -> dict[str, Any]:
+    """The scene with dry friction, from rest: beside it the force jumps by twice as much."""
+    document: dict[str, Any] = write_scene(scene)
+    friction = {"kind": "friction", "name": "rub", "coordinate": "x", "force": "0.2"}
+    return document | {"loads": [*document["loads"], friction]}
+
+
 @pytest.mark.parametrize(
     ("fields", "method", "reason"),
     [
@@ -278,6 +286,15 @@ def test_an_answer_that_ends_has_all_its_columns_up_to_there() -> None:
             id="stiff and damped",
         ),
         pytest.param({"scene": write_scene(oscillator("-1e6*x")), "t_end": 10.0}, "dop853", "auto_smooth", id="fast"),
+        pytest.param(
+            {"scene": rubbed(oscillator("-20*x")), "t_end": 20.0, "tolerance": 1e-9},
+            "dop853",
+            "auto_smooth",
+            id="rubbed",
+        ),
+        pytest.param(
+            {"scene": rubbed(oscillator("-1e6*x - 1e4*dot(x)")), "t_end": 100.0}, "radau-5", "auto_stiff", id="both"
+        ),
         pytest.param({"method": "heun"}, "heun", None, id="chosen by the user"),
     ],
 )

@@ -11,8 +11,10 @@ from ..language.functions import KINKED
 from ..language.tree import Call, Node, walk
 from ..mechanics.contributions import Contribution
 from ..mechanics.scene import Scene
+from ..model.modes import modes_of
 from ..vocabulary import AUTO
 from .choice import Choice
+from .hybrid import in_first_mode
 from .library import get_method
 from .problem import Problem
 from .refinement import AHEAD, LARGEST_OF_SERIES
@@ -84,14 +86,15 @@ def choose(wanted: str, scene: Scene, problem: Problem, step: float | None, tole
     """The method wanted, or the one that suits scene, span and tolerance.
 
     The linearized scene tells how fast the motion is and which parts of it die out, and what drives it how fast that
-    is; the effort follows.
+    is; the effort follows. Forces that jump are those of one side: beside a jump all would look stiff.
     Symplectic methods are not among the candidates: over the spans allowed they never cost least (measured).
     """
     if wanted != AUTO:
         return Choice(get_method(wanted))
     if step is not None:
         return Choice(get_method("rk4"), "auto_fixed_step")
-    size, lasting = _speeds(problem)
+    modes = modes_of(scene)
+    size, lasting = _speeds(problem if modes is None else in_first_mode(problem, modes))
 
     def effort(candidate: Candidate | SeriesCandidate) -> float:
         return candidate.effort(problem.t_end, tolerance or LOOSE, lasting, size)

@@ -128,6 +128,14 @@ def run_on(problem: Problem, modes: Modes, method: Method, times: Floats, cancel
             return _whole(record, times, FINE, float(times[-1]), found)
 
 
+def in_first_mode(problem: Problem, modes: Modes) -> Problem:
+    """The problem as it is up to its first event; as it stands where contacts or switches do not tell how it begins."""
+    try:
+        return _problem(begun(replace(problem, model=modes.model), modes), 0)
+    except (UnsettledError, NoDirectionError, SlidingError):
+        return problem
+
+
 def _most_switches(steps: Steps, span: float) -> float:
     """How often forces may switch: steps of a given size that are unstable between switches would find ever more."""
     if steps.tolerance > 0.0:
