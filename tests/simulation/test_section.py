@@ -61,10 +61,11 @@ def test_points_of_two_oscillators_lie_on_their_ellipse() -> None:
     np.testing.assert_array_equal(standing.reached, 200.0)
 
 
+@pytest.mark.parametrize("beside", ["", " + m*max(0, x - 50)"], ids=["smooth", "a kink elsewhere"])
 @pytest.mark.parametrize("width", [0.05, 5e-3, 1e-3])
-def test_a_hill_that_is_thinner_than_a_step_is_seen(width: float) -> None:
+def test_a_hill_that_is_thinner_than_a_step_is_seen(width: float, beside: str) -> None:
     """U = e^(−(x/w)²)/8 on the way, ÿ = −y: at 2πk, x is behind by ∫ 1/√(u² − 2U) − 1/u dx where it came with u = 1."""
-    hill = plane(f"m*y^2/2 + m*exp(-(x/{width})^2)/8")
+    hill = plane(f"m*y^2/2 + m*exp(-(x/{width})^2)/8{beside}")
     starts = np.column_stack([np.linspace(-1.4, -0.6, 5), np.zeros(5), np.ones(5), np.ones(5)])
     found, _ = crossings(hill, "y", starts, 20.0)
     delay = width * quad(lambda y: 1.0 / math.sqrt(1.0 - 0.25 * math.exp(-(y**2))) - 1.0, -9.0, 9.0)[0]

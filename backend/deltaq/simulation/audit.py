@@ -153,6 +153,11 @@ class Audit:
     def _tape(self) -> Tape:
         return self.problem.model.tape
 
+    @property
+    def tape_has_choices(self) -> bool:
+        """Whether the forces change where a condition does."""
+        return self._tape.has_choices
+
     @cached_property
     def tape_arrays(self) -> TapeArrays:
         """The model's operations, as kernels read them."""
@@ -233,8 +238,9 @@ class Watcher:
 
         `parameters` has shape (motions, parameters); `which`, and what is returned, shape (some of them,).
         """
-        found, audit = np.zeros(len(which), dtype=np.int64), self.audit
-        find_unsure(audit.tape_arrays, self.ranges, meshes, parameters, which, audit.limit, self.room, found)
+        found, audit = np.ones(len(which), dtype=np.int64), self.audit
+        if not audit.tape_has_choices:  # of which slopes tell nothing
+            find_unsure(audit.tape_arrays, self.ranges, meshes, parameters, which, audit.limit, self.room, found)
         unsure = np.flatnonzero(found)
         if len(unsure):
             some = which[unsure]

@@ -229,8 +229,7 @@ class March:
         Where a motion may have passed over something between the ends of its steps, the first of them counts as unseen.
         From there it goes on in shorter ones. What has come to its end is told apart.
         """
-        if not self._conditions:
-            is_unseen = is_unseen | self._blind(gone)
+        is_unseen = is_unseen | self._blind(gone)
         refused = gone.taken & is_unseen & (gone.size > LEAST_PART * gone.wanted)
         if refused.any():
             lanes = np.flatnonzero(refused.any(axis=0))
