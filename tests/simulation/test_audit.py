@@ -170,6 +170,24 @@ def test_a_narrow_wall_on_the_way_is_seen() -> None:
         assert found.outcome.status != "ok" or found.values.max() < x0  # too high a hill turns it back
 
 
+@pytest.mark.parametrize(("steps", "before"), [(65_537, 0.5), (98_303, 0.5), (131_071, 0.5), (131_071, 1.5)])
+def test_a_hill_before_the_end_of_very_many_steps_is_seen(steps: int, before: float) -> None:
+    """Of more steps than there is room for, the last ones are not recorded; the hill moves the mass by 1 mm."""
+    step = 1.0 / steps
+    place, width = 1.0 - before * step, step / 20.0
+    force = f"{1e-3 / (width * math.sqrt(math.pi) * before * step)!r}*exp(-((x - {place!r})/{width!r})^2)"
+    held = scene(
+        {"x": (0.0, 1.0)},
+        {"m": 1.0},
+        {"mass": ("m", ["x", "0"])},
+        [{"kind": "force", "name": "hill", "at": "mass", "force": [force, "0"]}],
+    )
+    found = simulate(problem_of(held, 1.0, 11), get_method("heun"), step=step)
+    assert found.estimate is not None
+    error = abs(found.values[-1, 0] - 1.001)
+    assert error <= found.estimate.worst or found.outcome.status in {"unresolved", "step_blind"}
+
+
 def test_a_free_mass_under_a_fast_drive_is_no_alarm() -> None:
     problem = problem_of(driven("F*sin(w*t)", F=1.0, w=100.0 * math.pi), 10.0)
     found = simulate(problem, get_method("dop853"), tolerance=1e-6)

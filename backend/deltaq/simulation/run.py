@@ -215,6 +215,9 @@ def _found(arguments: KernelArguments, plan: Plan, result: Result, wall_time: fl
     mesh_times, mesh_states = plan.times[: plan.progress[COUNT]], plan.states[: plan.progress[COUNT]]
     result = _forked(problem, times[:good], out[:good, : 2 * problem.degrees], mesh_times, mesh_states, result)
     good = min(good, result.samples)
+    stride = int(plan.progress[STRIDE])
+    if stride > 1:
+        mesh_times, mesh_states = _to_the_end(mesh_times, mesh_states, times[:good], out[:good])
     return Run(
         times[:good],
         out[:good],
@@ -225,9 +228,21 @@ def _found(arguments: KernelArguments, plan: Plan, result: Result, wall_time: fl
         held=_stop(arguments) if result.outcome == HELD else None,
         mesh_times=mesh_times,
         mesh_states=mesh_states,
-        stride=int(plan.progress[STRIDE]),
+        stride=stride,
         reactions=reactions and reactions.first(good),
     )
+
+
+def _to_the_end(mesh_times: Floats, mesh_states: Floats, times: Floats, states: Floats) -> tuple[Floats, Floats]:
+    """A mesh whose last step is prolonged to the last sample: of very many steps the last ones are not recorded.
+
+    No step stands for fewer of the run than it is said to. The arrays have shapes (steps,), (steps, 2n), (samples,) and
+    (samples, ≥ 2n).
+    """
+    if not (mesh_times.size and times.size and times[-1] > mesh_times[-1]):
+        return mesh_times, mesh_states
+    kept, width = slice(None, max(mesh_times.size - 1, 1)), mesh_states.shape[1]
+    return np.append(mesh_times[kept], times[-1]), np.vstack([mesh_states[kept], states[-1:, :width]])
 
 
 def _forked(
