@@ -7,7 +7,7 @@ import math
 import pytest
 from tests.language.scene_names import NAMES
 
-from deltaq.language.floats import evaluate
+from deltaq.language.floats import evaluate, evaluate_beyond
 from deltaq.language.parser import parse
 
 POINT = {"m": 2.0, "l": 0.5, "phi": 1.0, "x": 3.0, "y": -4.0, "dot(phi)": 0.25, "ddot(phi)": 7.0}
@@ -48,3 +48,28 @@ def test_value(text: str, value: float) -> None:
 @pytest.mark.parametrize("text", [text for text, _ in UNDEFINED], ids=[reason for _, reason in UNDEFINED])
 def test_no_value(text: str) -> None:
     assert math.isnan(evaluate(parse(text, NAMES).tree, POINT))
+
+
+@pytest.mark.parametrize(
+    ("text", "value"),
+    [
+        ("1/cosh(1000*x)^2", 0.0),
+        ("1/(1 + exp(x^8))", 0.0),
+        ("atan(sinh(1000*y))", -math.pi / 2),
+        ("1/(10^30*y)^11", -0.0),
+        ("tanh(exp(x^8))", 1.0),
+        ("exp(x^8)", math.inf),
+        ("x^2", 9.0),
+    ],
+)
+def test_value_of_parts_beyond_all_numbers(text: str, value: float) -> None:
+    found = evaluate_beyond(parse(text, NAMES).tree, POINT)
+    assert found == value
+    assert math.copysign(1.0, found) == math.copysign(1.0, value)
+
+
+@pytest.mark.parametrize(
+    "text", ["1/(x - 3)", "sqrt(y)", "exp(x^8)/cosh(x^8)", "exp(x^8) - cosh(x^8)", "cos(exp(x^8))"]
+)
+def test_no_value_even_beyond_all_numbers(text: str) -> None:
+    assert math.isnan(evaluate_beyond(parse(text, NAMES).tree, POINT))

@@ -48,6 +48,7 @@ def potential(energy: str) -> list[dict[str, object]]:
     return [{"name": "field", "kind": "potential", "energy": energy}]
 
 
+LIGHT = [{"name": "m"}, {"name": "l"}]
 WITHOUT_UNITS = [{"name": "x"}, {"name": "phi"}]
 CASES = [
     pytest.param({}, (), id="nothing wrong"),
@@ -225,6 +226,10 @@ CASES = [
         {"loads": [{"kind": "potential", "energy": "m*x^2/t^2/(phi - phi)"}]},
         (Problem("never-defined", "/loads/0/energy", parameters={"expression": "m*x^2/t^2/(phi - phi)"}),),
         id="potential divided by zero",
+    ),
+    *(
+        pytest.param({"coordinates": WITHOUT_UNITS, "parameters": LIGHT, "loads": potential(energy)}, (), id=energy)
+        for energy in ("m*l/cosh(2000*(x - 9))^2", "m*l/(1 + exp(2000*(9 - x)))", "m*l*tanh(2000*(x - 9))")
     ),
 ]
 

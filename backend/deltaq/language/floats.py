@@ -21,6 +21,14 @@ def evaluate(node: Node, values: Mapping[str, float]) -> float:
         return math.nan
 
 
+def evaluate_beyond(node: Node, values: Mapping[str, float]) -> float:
+    """The same with parts beyond all numbers infinite, where `evaluate` stops: 1/cosh(x)² is 0 for large x."""
+    try:
+        return fold(node, _ExtendedAlgebra(values))
+    except (ArithmeticError, ValueError):
+        return math.nan
+
+
 @dataclass(frozen=True)
 class FloatAlgebra(NumbersOnly):
     """Evaluation from the leaves up; raises ArithmeticError or ValueError where the expression is not defined."""
@@ -62,3 +70,20 @@ class FloatAlgebra(NumbersOnly):
 
     def time_derivative(self, _operand: float) -> NoReturn:
         raise ValueError("a number has no derivative")
+
+
+@dataclass(frozen=True)
+class _ExtendedAlgebra(FloatAlgebra):
+    """Powers and functions that overflow are infinite."""
+
+    def power(self, base: float, exponent: float) -> float:
+        try:
+            return super().power(base, exponent)
+        except OverflowError:
+            return -math.inf if base < 0.0 and exponent % 2.0 else math.inf
+
+    def call(self, function: str, arguments: tuple[float, ...]) -> float:
+        try:
+            return super().call(function, arguments)
+        except OverflowError:  # of exp, cosh or sinh
+            return math.copysign(math.inf, arguments[0]) if function == "sinh" else math.inf

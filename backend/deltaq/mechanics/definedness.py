@@ -9,7 +9,7 @@ from collections.abc import Iterable, Iterator, Mapping
 from ..errors import Problem
 from ..language.differentiation import MAX_RATE
 from ..language.expression import Expression
-from ..language.floats import evaluate
+from ..language.floats import evaluate, evaluate_beyond
 from ..language.spelling import spell_rate
 from .scene import Scene
 
@@ -23,7 +23,7 @@ def definedness_problems(scene: Scene, expressions: Iterable[tuple[str, Expressi
     for pointer, expression in expressions:
         if expression.has_derivatives:
             continue
-        if not any(math.isfinite(evaluate(expression.tree, point)) for point in points):
+        if not any(math.isfinite(evaluate_beyond(expression.tree, point)) for point in points):
             yield Problem("never-defined", pointer, parameters={"expression": expression.text[:60]})
 
 
