@@ -27,6 +27,11 @@ def hopeless(_: Document) -> Document:
         pass
 
 
+def never_ready(_connection: object, _memory: int, _niceness: int) -> None:
+    """A worker that does not come up."""
+    time.sleep(3600.0)
+
+
 def unhurried(document: Document) -> Parts:
     parts = derive(document)
     yield next(parts)

@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+import multiprocessing
 import threading
 
 import pytest
+from tests.api.slow import never_ready
 
+from deltaq.api.workers import worker as worker_module
 from deltaq.api.workers import worker_thread as thread_module
 from deltaq.api.workers.job import Job
 from deltaq.api.workers.occupancy import Slots
@@ -16,9 +19,12 @@ from deltaq.api.workers.worker_thread import Limits, WorkerThread
 LIMITS = Limits(memory=2**31, jobs=100, start_timeout=30.0, queue_timeout=30.0)
 
 
-def test_worker_that_is_not_ready_in_time_is_given_up() -> None:
-    with pytest.raises(TimeoutError, match=r"the worker was not ready after 0\.0 s"):
-        start_worker(2**31, 0.0)
+def test_worker_that_is_not_ready_in_time_is_given_up(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(worker_module, "run", never_ready)
+    before = multiprocessing.active_children()
+    with pytest.raises(TimeoutError, match=r"the worker was not ready after 0\.2 s"):
+        start_worker(2**31, 0.2)
+    assert multiprocessing.active_children() == before
 
 
 @pytest.mark.parametrize(
