@@ -45,6 +45,7 @@ async def test_every_scene_is_derived(client: httpx.AsyncClient, scene: str, lan
     assert chapters == [*CHAPTERS[:-1], *further(load_scene(scene)), "model"]
     assert all(chapter.steps for chapter in answer.chapters)
     assert answer.result.model_dump().keys() == {
+        "degrees_of_freedom",
         "positions",
         "points",
         "virtual_displacements",
