@@ -30,7 +30,8 @@ def dependence_problems(
     yield from (Problem("constraint-without-coordinates", f"/constraints/{i}") for i in idle)
     ties = [each.tie() for each in found]
     if not idle and ties and all(ties):
-        yield _tied(conditions, free, near, min(ties, key=len))
+        several = [tie for tie in ties if len(tie) > 1]  # one alone has no row there, too small or large for numbers
+        yield _tied(conditions, free, near, min(several or ties, key=len))
 
 
 @dataclass(frozen=True)
@@ -78,7 +79,8 @@ def _tied(
     conditions: Sequence[Condition], free: Sequence[str], points: Sequence[Point], tie: tuple[int, ...]
 ) -> Problem:
     *others, last = (conditions[i] for i in tie)
-    code = _verdict([_left(others, last, free, points, point["t"]) for point in points])
+    left = [_left(others, last, free, points, point["t"]) for point in points] if others else []
+    code = _verdict(left)
     parameters = {"name": last.source, "names": ", ".join(conditions[i].source for i in tie)}
     return Problem(code, f"/constraints/{tie[-1]}", parameters=parameters)
 
