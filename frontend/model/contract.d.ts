@@ -77,10 +77,12 @@ export interface paths {
          * Simulate a scene with many initial values or parameters
          * @description Simulate a scene with many initial values or parameters. Each run has its own status and error.
          *
-         *     Runs come as they are done where `Accept` asks for text/event-stream. The events: `waiting` with `place` in the
-         *     queue (1: the next, 0: begun) and `seconds`; `block` with what the answer tells of each run, of `runs` runs from the
-         *     `first` on, in whatever order they are done; then `result`, which is what it tells of all of them together, or
-         *     `problem` with the runs that are `missing`. Columns of the blocks, put together by `first`, are those of the answer.
+         *     Runs come as they are done where `Accept` asks for text/event-stream; what makes no sense is refused before. The
+         *     events: `preparing` with how many `kernels` are there `of` all, where the service still compiles what this takes;
+         *     `waiting` with `place` in the queue (1: the next, 0: begun) and `seconds`; `block` with what the answer tells of
+         *     each run, of `runs` runs from the `first` on, in whatever order they are done; then `result`, which is what it tells
+         *     of all of them together, or `problem` with the runs that are `missing`. Columns of the blocks, put together by
+         *     `first`, are those of the answer.
          */
         post: operations["run_ensemble"];
         delete?: never;

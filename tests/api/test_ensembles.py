@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import asyncio
 import json
 import os
 import signal
 from base64 import b64decode
 from collections.abc import AsyncIterator
 from dataclasses import replace
+from pathlib import Path
 from typing import Any
 
 import httpx
@@ -15,12 +17,16 @@ import numpy as np
 import pytest
 from fastapi import FastAPI
 from pydantic import BaseModel
+from tests.serving import PATIENCE, PATIENT, served
 
 from deltaq.api import blocks as streaming
+from deltaq.api import kernels, streams
 from deltaq.api.blocks import Blocks
 from deltaq.api.routes import ensembles
 from deltaq.api.service import Service
 from deltaq.contract.ensemble import EnsembleAnswer, EnsembleBlock, EnsembleRequest, EnsembleTotals
+from deltaq.simulation.kernels.marks import declared
+from deltaq.simulation.library import kernel_groups
 
 pytestmark = pytest.mark.anyio
 ADDRESS, STREAM = "/api/v1/ensembles", {"Accept": "text/event-stream"}
@@ -143,42 +149,159 @@ async def test_long_streams_are_not_kept(client: httpx.AsyncClient, monkeypatch:
     assert sorted(data["first"] for kind, data in second if kind == "block") == [0, 64, 128]
 
 
-REFUSED = [
-    pytest.param({"vary": {"parameters.q": [1.0]}}, 422, "ensemble-quantity", "/vary/parameters.q", id="unknown"),
-    pytest.param({"vary": {"parameters.l": [1.0, -1.0]}}, 422, "not-positive", "/vary/parameters.l/1", id="negative"),
+LINE = under("-m*sign(x)")
+ROD = {"scene": "cartesian-pendulum", "vary": {"parameters.m": [1.0, 2.0]}}
+# What is wrong with a request, and the field and code that say so.
+WRONG = [
+    pytest.param({"scene": "pendulums"}, "unknown-scene", "/scene", id="scene"),
+    pytest.param({"scene": under("m*")}, "unexpected-end", "/scene/loads/0/force/0", id="force"),
+    pytest.param({"sections": 1}, "unknown-field", "/sections", id="field"),
+    pytest.param({"t_end": 1e300}, "request-too-large", "/t_end", id="without end"),
+    pytest.param({"t_end": -1.0}, "request-not-above", "/t_end", id="backwards"),
+    pytest.param({"samples": 1}, "request-too-small", "/samples", id="a single sample"),
+    pytest.param({"tolerance": 1e-20}, "request-too-small", "/tolerance", id="tolerance"),
+    pytest.param({"statistics": ["median"]}, "request-not-one-of", "/statistics/0", id="statistic"),
+    pytest.param({"vary": {}}, "request-too-few", "/vary", id="nothing varies"),
     pytest.param(
-        {"vary": {ANGLE: [1.0]}, "section": {"value": "phi +"}}, 422, "unexpected-end", "/section/value", id="section"
+        {"vary": {ANGLE: MANY | {"count": 10**9}}}, "request-too-large", f"/vary/{ANGLE}/count", id="too many"
     ),
-    pytest.param({"vary": {ANGLE: [1e17]}}, 422, "initial-too-large", f"/vary/{ANGLE}/0", id="too large"),
+    pytest.param(
+        {"vary": {ANGLE: MANY, "parameters.l": MANY}, "t_end": 40.0}, "ensemble-too-large", "/vary", id="grid"
+    ),
+    pytest.param(
+        {"vary": {ANGLE: [1.0, 2.0], "parameters.l": [1.0]}, "combine": "together"},
+        "ensemble-unlike",
+        "/vary",
+        id="unlike numbers",
+    ),
+    pytest.param({"vary": {ANGLE: ["NaN"]}}, "request-not-number", f"/vary/{ANGLE}/0", id="NaN as a text"),
+    pytest.param({"vary": {"parameters.q": [1.0]}}, "ensemble-quantity", "/vary/parameters.q", id="quantity"),
+    pytest.param({"vary": {"parameters.l": [1.0, -1.0]}}, "not-positive", "/vary/parameters.l/1", id="negative"),
+    pytest.param({"vary": {ANGLE: [1e17]}}, "initial-too-large", f"/vary/{ANGLE}/0", id="value"),
+    pytest.param(
+        {"vary": {ANGLE: {"from": 0.0, "to": 1e17, "count": 3}}}, "initial-too-large", f"/vary/{ANGLE}/to", id="range"
+    ),
+    pytest.param(
+        {"vary": {ANGLE: MANY | {"normal": [1.0, -1.0]}}},
+        "request-too-small",
+        f"/vary/{ANGLE}/normal/1",
+        id="deviation",
+    ),
+    pytest.param({"section": {"value": "phi +"}}, "unexpected-end", "/section/value", id="section that breaks off"),
+    pytest.param({"section": {"value": "psi"}}, "unknown-name", "/section/value", id="section of something else"),
+    pytest.param({"section": {"value": "l - 2"}}, "section-plane-constant", "/section/value", id="section nowhere"),
+    pytest.param(
+        {"section": {"value": "phi", "direction": "up"}}, "request-not-one-of", "/section/direction", id="direction"
+    ),
+    pytest.param(
+        {"section": {"value": "phi", "points": 20_000}},
+        "ensemble-section-too-large",
+        "/section/points",
+        id="section of very many points",
+    ),
+    pytest.param(BALL | {"section": {"value": "z"}}, "ensemble-section-events", "/section", id="section behind events"),
+    pytest.param(
+        {"scene": LINE, "vary": {"initial.x.value": [1.0]}, "section": {"value": "x"}},
+        "ensemble-section-events",
+        "/section",
+        id="section of forces that jump",
+    ),
+    pytest.param(BALL | {"vary": {"initial.z.value": [0.5, -0.6]}}, "event-at-start", "/vary", id="behind an event"),
+    pytest.param(ROD, "method-constraints", "/scene", id="constraints"),
 ]
 
 
-@pytest.mark.parametrize(("change", "status", "code", "pointer"), REFUSED)
-async def test_a_stream_that_is_refused_says_why(
-    client: httpx.AsyncClient, change: dict[str, Any], status: int, code: str, pointer: str
+@pytest.mark.parametrize("lang", ["en", "de"])
+@pytest.mark.parametrize(("change", "code", "pointer"), WRONG)
+async def test_a_stream_refuses_what_the_answer_refuses_and_alike(
+    client: httpx.AsyncClient, change: dict[str, Any], code: str, pointer: str, lang: str
 ) -> None:
-    ((kind, problem),) = await streamed(client, PENDULUMS | change)
-    assert (kind, problem["status"]) == ("problem", status)
-    assert [(one["code"], one["pointer"]) for one in problem["problems"]] == [(code, pointer)]
-    count = len(next(iter(change["vary"].values())))
-    assert problem["missing"] == [{"first": 0, "runs": count}]
+    plain, stream = [
+        await client.post(ADDRESS, json=PENDULUMS | change | {"lang": lang}, headers=headers)
+        for headers in ({}, STREAM)
+    ]
+    assert stream.status_code == plain.status_code == (404 if code == "unknown-scene" else 422), plain.text
+    assert stream.headers["content-type"] == plain.headers["content-type"] == "application/problem+json"
+    assert stream.json() == plain.json()
+    assert (code, pointer) in [(one["code"], one["pointer"]) for one in plain.json()["problems"]]
 
 
-MISREAD = [
-    pytest.param({"vary": {ANGLE: {"from": 0.0, "to": 1.0, "count": 10**9}}}, "request-too-large", id="too many"),
-    pytest.param({"vary": {ANGLE: ["NaN"]}}, "request-not-number", id="NaN as a text"),
-    pytest.param({"t_end": 1e300}, "request-too-large", id="without end"),
-    pytest.param({"sections": 1}, "unknown-field", id="field"),
-]
+@pytest.mark.parametrize("lang", ["en", "de"])
+@pytest.mark.parametrize("body", [b"", b"{", b"[]", b'{"t_end": NaN}'])
+async def test_a_stream_refuses_what_is_no_request_alike(client: httpx.AsyncClient, body: bytes, lang: str) -> None:
+    headers = {"Content-Type": "application/json", "Accept-Language": lang}
+    plain, stream = [await client.post(ADDRESS, content=body, headers=headers | more) for more in ({}, STREAM)]
+    assert stream.status_code == plain.status_code >= 400
+    assert stream.json() == plain.json()
 
 
-@pytest.mark.parametrize(("change", "code"), MISREAD)
-async def test_what_cannot_be_read_is_refused_before_a_stream_begins(
-    client: httpx.AsyncClient, change: dict[str, Any], code: str
+def compiling_on(app: FastAPI, monkeypatch: pytest.MonkeyPatch) -> list[asyncio.Event]:
+    """As if no kernels were compiled; what is set then tells that they are."""
+    service: Service = app.state.service
+    groups = {group: asyncio.Event() for group in kernel_groups()}
+    for group, compiled in groups.items():
+        monkeypatch.setitem(service.kernels._compiled, group, compiled)
+    return list(groups.values())
+
+
+async def test_nobody_waits_for_kernels_to_be_refused(
+    app: FastAPI, client: httpx.AsyncClient, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    response = await client.post(ADDRESS, json=PENDULUMS | change, headers=STREAM)
-    assert response.status_code == 422
-    assert code in [one["code"] for one in response.json()["problems"]]
+    compiling_on(app, monkeypatch)
+    for headers in ({}, STREAM):
+        response = await client.post(ADDRESS, json=PENDULUMS | {"vary": {ANGLE: [1e17]}}, headers=headers)
+        assert response.status_code == 422
+
+
+async def test_a_stream_says_that_it_waits_for_kernels(
+    app: FastAPI, client: httpx.AsyncClient, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """As a service does on a new machine: a client hears at once, and every second, how many there are."""
+    compiling = compiling_on(app, monkeypatch)
+    monkeypatch.setattr(kernels, "PAUSE", 0.1)
+    question = PENDULUMS | {"t_end": 3.25}
+    for one in compiling:
+        asyncio.get_running_loop().call_later(1.0, one.set)
+    events = await streamed(client, question)
+    told = [data for kind, data in events if kind == "preparing"]
+    others = [kind for kind, _ in events[len(told) :]]
+    assert len(told) > 2
+    assert others == ["block"] * (len(others) - 1) + ["result"]
+    assert all(one == {"kernels": one["of"], "of": len(list(declared()))} for one in told)  # those of the tests
+    for one in compiling:
+        one.clear()
+    assert await streamed(client, question) == events[len(told) :]  # what is known waits for nothing
+
+
+def test_a_client_of_a_new_machine_hears_that_kernels_are_compiled(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    for variable in ("NUMBA_CACHE_DIR", "XDG_CACHE_HOME"):
+        monkeypatch.setenv(variable, str(tmp_path / variable))
+    address = ADDRESS.removeprefix("/")
+    with served(workers=1, **PATIENT) as one, httpx.Client(base_url=one.address, timeout=PATIENCE) as client:
+        refused = client.post(address, json=PENDULUMS | {"vary": {ANGLE: [1e17]}}, headers=STREAM)
+        assert refused.status_code == 422
+        with client.stream("POST", address, json=PENDULUMS, headers=STREAM) as response:
+            lines = [line for line, _ in zip(response.iter_lines(), range(5), strict=False)]
+    assert lines[::3] == ["event: preparing"] * 2
+    first, second = (json.loads(line.removeprefix("data: ")) for line in lines[1::3])
+    assert first["kernels"] <= second["kernels"] < first["of"] == second["of"] == len(list(declared()))
+
+
+async def test_a_silent_stream_is_kept_alive(client: httpx.AsyncClient, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(streams, "LONGEST_SILENCE", 0.05)
+    few = {"vary": {"initial.x.value": {"from": 0.5, "to": 2.0, "count": 40}}, "t_end": 20.0}
+    async with client.stream("POST", ADDRESS, json=PENDULUMS | JUMPS | few, headers=STREAM) as response:
+        text = b"".join([part async for part in response.aiter_raw()]).decode()
+    events = text.split("\n\n")
+    assert ":" in events  # lines that begin so are comments
+    assert events[-1] == ""
+    assert all(one == ":" or one.startswith("event: ") for one in events[:-1])
+    assert [one.split("\n")[0] for one in events[:-1] if one != ":" and "waiting" not in one] == [
+        *["event: block"] * 40,
+        "event: result",
+    ]
 
 
 async def test_what_is_done_within_the_time_limit_stays_and_the_rest_is_named(

@@ -35,12 +35,17 @@ test("an experiment lets hear its parts and ends with its result", async () => {
   assert.deepEqual([heard, found], [[{ done: 1 }], { experiment: "chaos" }]);
 });
 
-test("an experiment that has to wait tells its place", async () => {
-  const text = 'event: waiting\ndata: {"place":2,"seconds":14.5}\n\nevent: waiting\ndata: {"place":0,"seconds":0}\n\n' + TEXT;
+test("comments that keep a connection alive are no events", () => {
+  const read = eventReader();
+  assert.deepEqual(read(":\n\n:\n\nevent: part\ndata: 1\n\n: still here\n\n"), [{ kind: "part", data: 1 }]);
+});
+
+test("an experiment that has to wait tells for what", async () => {
+  const text = 'event: preparing\ndata: {"kernels":3,"of":60}\n\n:\n\nevent: waiting\ndata: {"place":2,"seconds":14.5}\n\nevent: waiting\ndata: {"place":0,"seconds":0}\n\n' + TEXT;
   /** @type {any[]} */
   const told = [];
   await experiment(answering(text), "chaos", {}, () => told.push("part"), signal, false, (waiting) => told.push(waiting));
-  assert.deepEqual(told, [{ place: 2, seconds: 14.5 }, { place: 0, seconds: 0 }, "part"]);
+  assert.deepEqual(told, [{ kernels: 3, of: 60 }, { place: 2, seconds: 14.5 }, { place: 0, seconds: 0 }, "part"]);
 });
 
 test("what was measured before is measured anew on demand alone", async () => {

@@ -9,7 +9,7 @@ from __future__ import annotations
 import asyncio
 import json
 import re
-from collections.abc import AsyncIterator, Awaitable, Callable, Iterator, Mapping
+from collections.abc import AsyncGenerator, Awaitable, Callable, Iterator, Mapping
 from contextlib import suppress
 from typing import Any
 
@@ -55,7 +55,7 @@ class Blocks:
         with suppress(asyncio.QueueFull):
             self._events.put_nowait(event(update.kind, update.data))
 
-    async def events(self, work: Callable[[], Awaitable[bytes]], failure: Failure) -> AsyncIterator[bytes]:
+    async def events(self, work: Callable[[], Awaitable[bytes]], failure: Failure) -> AsyncGenerator[bytes]:
         """What is taken and told while the work goes on; then its `result`, or `problem` with a problem document.
 
         Its `missing` are the runs that did not come. When the client goes away, the work is cancelled.

@@ -29,7 +29,8 @@ SUBJECTS = {
     "proofs": "Derivations that hold for any scene.",
     "homework": "Tasks, answers checked in any equivalent form, and what went wrong.",
     "experiments": "Speed against accuracy, convergence, stability, chaos, and the least model that will do. "
-    "Accept: text/event-stream lets one watch: events `waiting` with `place` in the queue (1: the next, 0: begun) and "
+    "Accept: text/event-stream lets one watch: events `preparing` with how many `kernels` are compiled `of` all, where "
+    "they still are, `waiting` with `place` in the queue (1: the next, 0: begun) and "
     "`seconds` until it should begin, `part` with the charts so far, then `result` or `problem`; "
     "text/html and text/csv give the charts as files.",
     "exports": "A derivation as a document, a motion as a program.",

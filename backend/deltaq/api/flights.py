@@ -12,9 +12,12 @@ GRACE = 0.5  # seconds for which a computation goes on when nobody waits: pages 
 
 @dataclass(frozen=True)
 class Update:
-    """News of a computation before its answer: `waiting` with the place in the queue, or a `part` of the answer."""
+    """News of a computation before its answer.
 
-    kind: Literal["waiting", "part"]
+    `preparing` while what it needs is compiled, `waiting` with its place in the queue, or a `part` of the answer.
+    """
+
+    kind: Literal["preparing", "waiting", "part"]
     data: bytes  # JSON
 
 

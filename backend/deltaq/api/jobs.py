@@ -75,6 +75,12 @@ def ensemble(document: Document) -> Document:
     return answer | outcomes_explained(answer.pop("outcomes"), document["request"]["lang"])
 
 
+def judge_ensemble(document: Document) -> Document:
+    """Nothing, if it makes sense to run what is asked; InputError as `ensemble` raises it before anything runs."""
+    import_module("deltaq.simulation.ensemble_answer").meant_by(document["request"])
+    return {}
+
+
 def ensemble_in_blocks(document: Document) -> Parts:
     """The same, some runs at a time as they are done; then what is told of all of them."""
     language = document["request"]["lang"]

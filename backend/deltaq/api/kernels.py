@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import asyncio
 import logging
+from collections.abc import Callable
+from contextlib import suppress
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -20,6 +22,7 @@ WARM_LABORATORY = Job("deltaq.api.jobs:warm_laboratory", deadline=300.0, threads
 LATE = "the numerical kernels are still being compiled"
 PAUSE = 1.0  # seconds between two looks at what is compiled
 USUAL = "dop853"  # what `auto` takes nearly always
+Tell = Callable[[int, int], object]  # how many kernels there are, and how many there will be
 
 
 @dataclass(frozen=True)
@@ -82,10 +85,11 @@ class Kernels:
             raise Preparing(LATE) from None
         return here
 
-    async def wait(self, *methods: str) -> None:
+    async def wait(self, *methods: str, tell: Tell = lambda _here, _all: None) -> None:
         """Until the kernels of these methods (or ensembles) are there, all if none is named.
 
-        Raises Preparing if that takes too long, UnknownNameError for a method that does not exist.
+        Where they are not there yet, `tell` hears at once and every second how many of all kernels are. Raises
+        Preparing if that takes too long, UnknownNameError for a method that does not exist.
         """
         wanted = {_group_of(method) for method in methods}
         self._wanted.update(wanted)
@@ -93,9 +97,17 @@ class Kernels:
             async with asyncio.timeout(self.timeout):
                 for family in wanted or kernel_groups():
                     if family in self._compiled:
-                        await self._compiled[family].wait()
+                        await _come(self._compiled[family], tell)
         except TimeoutError:
             raise Preparing(LATE) from None
+
+
+async def _come(compiled: asyncio.Event, tell: Tell) -> None:
+    while not compiled.is_set():
+        tell(await asyncio.to_thread(_count), await asyncio.to_thread(lambda: len(list(declared()))))
+        with suppress(TimeoutError):
+            async with asyncio.timeout(PAUSE):
+                await compiled.wait()
 
 
 def _count() -> int:

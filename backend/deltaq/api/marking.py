@@ -10,7 +10,7 @@ from __future__ import annotations
 import asyncio
 import json
 import time
-from collections.abc import AsyncIterator, Awaitable, Callable
+from collections.abc import AsyncGenerator, AsyncIterator, Awaitable, Callable
 from dataclasses import asdict, dataclass, fields
 from typing import Any
 
@@ -145,7 +145,7 @@ def row_document(index: int, graded: Graded) -> Document:
     return {"index": index, **told}
 
 
-async def streamed(marking: Marking, failure: Callable[[Exception], Document]) -> AsyncIterator[bytes]:
+async def streamed(marking: Marking, failure: Callable[[Exception], Document]) -> AsyncGenerator[bytes]:
     """The events of a marking, then `result`, or `problem` with a problem document. When the client goes away, what is
     under way is cancelled, and the rest is not begun.
     """

@@ -79,10 +79,15 @@ class Service:
         async with self.pool.asked(key, ACCOUNT.get()):
             return await _shared(partial(self.cache.get, key, compute, on_update))
 
-    async def blocks(self, key: str, job: Job, document: Any, blocks: Blocks) -> bytes:
-        """The JSON of a job's answer, whose parts are sent as `blocks` before; those that are known at once."""
+    async def blocks(self, key: str, job: Job, document: Any, blocks: Blocks, kernels: tuple[str, ...] = ()) -> bytes:
+        """The JSON of a job's answer, whose parts are sent as `blocks` before; those that are known at once.
+
+        Others wait for the `kernels` that the job takes.
+        """
         if (known := await blocks.known(self.cache, key)) is not None:
             return known
+        if kernels:
+            await self.kernels.wait(*kernels, tell=lambda here, all_: blocks.tell(_preparing(here, all_)))
         result = await self.pool.run(
             job, document, ignore, ACCOUNT.get(), lambda place: blocks.tell(_waiting(place)), take=blocks.take
         )
@@ -99,7 +104,7 @@ class Service:
         anew: bool,
         kernels: tuple[str, ...] | None = None,
     ) -> bytes:
-        """The gzipped JSON of an experiment; `on_update` receives its place in the queue and its parts before.
+        """The gzipped JSON of an experiment; `on_update` receives what it waits for, and its parts, before.
 
         `anew` measures what is in the cache already. It waits for the `kernels` that it takes, all if None. Who has
         been let in waits for minutes, and is not refused for what the experiments have cost that he asked for at the
@@ -108,7 +113,7 @@ class Service:
 
         async def compute(publish: OnUpdate) -> bytes:
             if kernels is None or kernels:
-                await self.kernels.wait(*(kernels or ()))
+                await self.kernels.wait(*(kernels or ()), tell=lambda here, all_: publish(_preparing(here, all_)))
             account, has_begun = ACCOUNT.get(), Event()
             account.admit()
 
@@ -135,6 +140,11 @@ class Service:
     def key(*question: Any) -> str:
         """The content hash of a question: another version of δq may answer it differently, so its code counts too."""
         return content_hash(source_digest(), *question)
+
+
+def _preparing(here: int, all_: int) -> Update:
+    """How many of all kernels are compiled."""
+    return Update("preparing", json.dumps({"kernels": here, "of": all_}).encode())
 
 
 def _waiting(place: Place) -> Update:

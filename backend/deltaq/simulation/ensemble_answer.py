@@ -40,21 +40,37 @@ class Varied:
     quantities: Mapping[str, Floats]
 
 
+@dataclass(frozen=True)
+class Meant:
+    """What a request means: all that is known before anything runs."""
+
+    asked: EnsembleRequest
+    scene: Scene
+    varied: Varied
+    section: Section | None
+
+
+def meant_by(document: Mapping[str, object]) -> Meant:
+    """What a request means. Raises InputError for what cannot be read, or asks for what makes no sense."""
+    asked = read(EnsembleRequest, document)
+    scene = begun_scene(asked)
+    varied = varied_of(asked, scene)
+    return Meant(asked, scene, varied, section_of(asked, scene, varied.ensemble))
+
+
 def run(
     document: Mapping[str, object],
     report: Callable[[int], None] | None = None,
     cluster: Executor | None = None,
 ) -> Document:
-    """Runs what the request names. Raises InputError for what cannot be read; `report` hears how many runs are done."""
-    asked, start = read(EnsembleRequest, document), perf_counter()
-    scene = begun_scene(asked)
-    varied = varied_of(asked, scene)
-    section = section_of(asked, scene, varied.ensemble)
-    if cluster is None and section is None:
-        found = Part(0, run_ensemble(varied.ensemble, asked.tolerance, report=report))
+    """Runs what the request names. Raises InputError as `meant_by`; `report` hears how many runs are done."""
+    start, meant = perf_counter(), meant_by(document)
+    ensemble, tolerance = meant.varied.ensemble, meant.asked.tolerance
+    if cluster is None and meant.section is None:
+        found = Part(0, run_ensemble(ensemble, tolerance, report=report))
     else:
-        found = joined(_reported(in_parts(varied.ensemble, asked.tolerance, cluster, section), report))
-    return _answered(asked, scene, varied, found) | {"wall_time": perf_counter() - start}
+        found = joined(_reported(in_parts(ensemble, tolerance, cluster, meant.section), report))
+    return _answered(meant, found) | {"wall_time": perf_counter() - start}
 
 
 def _reported(parts: Iterable[Part], report: Callable[[int], None] | None) -> Iterator[Part]:
@@ -74,14 +90,12 @@ def run_in_parts(
     Columns of the parts, put together in the order of `first`, are those of the whole. Runs are not kept unless there
     are to be statistics of them.
     """
-    asked, start = read(EnsembleRequest, document), perf_counter()
-    scene = begun_scene(asked)
-    varied = varied_of(asked, scene)
-    names, count = [coordinate.name for coordinate in scene.free], len(varied.ensemble)
+    start, meant = perf_counter(), meant_by(document)
+    asked, varied = meant.asked, meant.varied
+    names, count = [coordinate.name for coordinate in meant.scene.free], len(varied.ensemble)
     times, outcomes = np.zeros(0), list[tuple[int, Document]]()
     values = np.empty((count, asked.samples, len(names))) if asked.statistics else None
-    section = section_of(asked, scene, varied.ensemble)
-    for part in in_parts(varied.ensemble, asked.tolerance, cluster, section):
+    for part in in_parts(varied.ensemble, asked.tolerance, cluster, meant.section):
         places = slice(part.first, part.first + len(part))
         quantities = {name: each[places] for name, each in varied.quantities.items()}
         outcomes.append((part.first, _first_of_each(part)))
@@ -235,10 +249,10 @@ def _combined(columns: list[Floats], how: str) -> list[Floats]:
     return [np.ascontiguousarray(grid.ravel()) for grid in np.meshgrid(*columns, indexing="ij")]
 
 
-def _answered(asked: EnsembleRequest, scene: Scene, varied: Varied, found: Part) -> Document:
-    names, motion = [coordinate.name for coordinate in scene.free], found.motion
+def _answered(meant: Meant, found: Part) -> Document:
+    asked, motion, names = meant.asked, found.motion, [coordinate.name for coordinate in meant.scene.free]
     answer = {"runs": len(found), "t": WRITERS[asked.columns].write(motion.times)}
-    return answer | _of_runs(asked, names, varied.quantities, found) | _statistics(asked, names, motion.values)
+    return answer | _of_runs(asked, names, meant.varied.quantities, found) | _statistics(asked, names, motion.values)
 
 
 def _of_runs(asked: EnsembleRequest, names: list[str], quantities: Mapping[str, Floats], part: Part) -> Document:

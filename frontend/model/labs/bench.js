@@ -16,7 +16,7 @@ import { inLab, onScene, requestOf } from "./question.js";
  * @property {Question} question
  * @property {import("../types.js").Scene | null} scene
  * @property {boolean} running
- * @property {Waiting | null} waiting  its place in the queue, until it begins
+ * @property {Waiting | null} waiting  for what, until it begins
  * @property {number} progress 0 to 1
  * @property {Chart[]} charts
  * @property {Result | null} result

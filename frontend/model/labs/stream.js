@@ -4,17 +4,19 @@ import { ApiError, failureOf } from "../api.js";
 import { tableOf } from "../own.js";
 
 /** @typedef {{done: number, total: number, charts: Chart[]}} Part */
-/** @typedef {{place: number, seconds: number}} Waiting  place 1 is the next, 0 has begun; seconds until it should begin */
+/** @typedef {{place: number, seconds: number}} Queued  place 1 is the next, 0 has begun; seconds until it should begin */
+/** @typedef {{kernels: number, of: number}} Preparing  how many of all numerical kernels are compiled */
+/** @typedef {Queued | Preparing} Waiting  for what an experiment waits */
 /** @typedef {import("./chart.js").Chart} Chart */
 /** @typedef {import("./results.js").Result} Result */
 /** Events by their kinds, and what each kind says. @template T @typedef {{[K in keyof T]: {kind: K, data: T[K]}}[keyof T]} Events */
-/** @typedef {Events<{waiting: Waiting, part: Part, result: Result}>} Measuring  what is heard of an experiment */
+/** @typedef {Events<{preparing: Preparing, waiting: Queued, part: Part, result: Result}>} Measuring  what is heard of an experiment */
 /** @typedef {{kind: string, data: unknown}} StreamEvent */
 
 export const EVENTS = "text/event-stream";
 
 /**
- * Cuts text into events; what is not complete yet waits for the next piece.
+ * Cuts text into events; what is not complete yet waits for the next piece. Comments, which keep a connection alive, are none.
  * @returns {(piece: string) => StreamEvent[]}
  */
 export function eventReader() {
@@ -22,7 +24,7 @@ export function eventReader() {
   return (piece) => {
     const blocks = (rest + piece).split("\n\n");
     rest = blocks.pop() ?? "";
-    return blocks.filter(Boolean).map(eventOf);
+    return blocks.filter((block) => /^data:/m.test(block)).map(eventOf);
   };
 }
 
@@ -38,8 +40,8 @@ function eventOf(block) {
 }
 
 /**
- * Runs an experiment, or with `anew` runs again what was measured before; `hear` gets its parts, and `wait` its place
- * before it begins. An ApiError where it is refused or breaks off.
+ * Runs an experiment, or with `anew` runs again what was measured before; `hear` gets its parts, and `wait` what it
+ * waits for before it begins. An ApiError where it is refused or breaks off.
  * @param {typeof fetch} send @param {string} name @param {object} body
  * @param {(part: Part) => void} hear @param {AbortSignal} signal @param {boolean} [anew] @param {(waiting: Waiting) => void} [wait]
  * @returns {Promise<Result>}
@@ -56,7 +58,7 @@ export async function experiment(send, name, body, hear, signal, anew = false, w
   const stream = eventsOf(response);
   for await (const events of stream) {
     for (const { kind, data } of events) {
-      if (kind === "waiting") wait(data);
+      if (kind === "preparing" || kind === "waiting") wait(data);
       if (kind === "part") hear(data);
       if (kind === "result") return data;
     }

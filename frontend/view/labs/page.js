@@ -99,6 +99,8 @@ function progress({ bench, t }) {
 
 /** @param {View["bench"]} bench @param {number} percent @param {View["t"]} t */
 function underWay({ waiting, progress }, percent, t) {
+  if (waiting && "kernels" in waiting)
+    return t("labs.preparing", { kernels: String(waiting.kernels), of: String(waiting.of) });
   if (waiting?.place) return t("labs.queued", { place: String(waiting.place), time: roughly(waiting.seconds) });
   return progress || waiting ? t("labs.measuring", { percent }) : t("labs.waiting");
 }

@@ -3,8 +3,9 @@
 All who ask for the same at once share one experiment, and what was measured is kept: with it, where it has times, when
 and at which load of the machine. Who wants it measured anew says so, `fresh` or by `Cache-Control: no-cache`.
 Figures have no language: charts are drawn from them in each that is asked for; the parts of a shared stream are in that
-of who began it. Where an experiment has to wait, its stream tells first what place it has in the queue: `waiting`, with
-`place` (1: the next, 0: begun) and the `seconds` until it should begin.
+of who began it. Where an experiment has to wait, its stream tells first for what: `preparing`, how many `kernels` are
+there `of` all, where the service still compiles what it takes; then its place in the queue: `waiting`, with `place` (1:
+the next, 0: begun) and the `seconds` until it should begin.
 
 There is a call for whatever stands in `lab/experiments/`; what may be asked of it stands in `contract/experiments/`.
 """
@@ -33,7 +34,7 @@ from ..packing import unpack
 from ..problems import report_of
 from ..responses import packed, tagged
 from ..service import Service, service_of
-from ..streams import MEDIA_TYPE, events
+from ..streams import MEDIA_TYPE, events, kept_alive
 from ..workers.job import Job
 from .common import COMPUTING, failures, question_of
 
@@ -139,7 +140,7 @@ def _streamed(request: Request, measured: Callable[[OnUpdate], Awaitable[bytes]]
         return report_of(error).document(language_of(request))
 
     headers = {"Cache-Control": "no-store", "X-Accel-Buffering": "no"}
-    return StreamingResponse(events(work, failure), media_type=MEDIA_TYPE, headers=headers)
+    return StreamingResponse(kept_alive(events(work, failure)), media_type=MEDIA_TYPE, headers=headers)
 
 
 async def _exported(service: Service, media_type: str, answer: bytes, language: str) -> Response:

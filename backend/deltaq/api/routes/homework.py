@@ -55,6 +55,7 @@ from ..problems import report_of
 from ..responses import packed
 from ..service import service_of
 from ..streams import MEDIA_TYPE as EVENTS
+from ..streams import kept_alive
 from ..workers.job import Job
 from .common import COMPUTING, LANGUAGE, SceneId, failures, question_of
 
@@ -201,7 +202,7 @@ async def check_table(request: Request, body: TableRequest) -> Response:
         events = streamed(
             Marking(plan, verdict_on, language, STREAM_LONGEST), lambda e: report_of(e).document(language)
         )
-        return StreamingResponse(events, media_type=EVENTS, headers=UNKEPT)
+        return StreamingResponse(kept_alive(events), media_type=EVENTS, headers=UNKEPT)
     marking = Marking(plan, verdict_on, language, BATCH_LONGEST)
     async for _ in marking.events():
         pass  # nobody watches
