@@ -293,6 +293,61 @@ def test_propagation_keeps_what_hamiltonian_flows_keep(scene: str) -> None:
     np.testing.assert_allclose(found, 1.0, atol=1e-5)
 
 
+def plane(energy: str, x: tuple[float, float], y: tuple[float, float], **parameters: float) -> dict[str, Any]:
+    """A particle of mass 1 in a plane, in a potential."""
+    loads = [{"kind": "potential", "name": "field", "energy": energy}]
+    return document({"x": x, "y": y}, {"m": 1.0, **parameters}, {"p": ("m", ["x", "y"])}, loads)
+
+
+@pytest.mark.parametrize("width", [0.1, 0.01, 3e-3, 1e-3, 3e-4])
+def test_linear_propagation_passes_over_no_hill(width: float) -> None:
+    """A hill met off its middle scatters: deviations across the way grow with the slope of the angle."""
+    hill = {"height": 0.05, "width": width, "place": 4.987}
+    energy = "height*exp(-((x - place)^2 + y^2)/width^2)"
+    found = ask(
+        scene=plane(energy, (0.0, 1.0), (0.7 * width, 0.0), **hill), tolerances={"y": 1e-4 * width}, t_end=10.0, runs=40
+    )
+
+    def forces(_t: float, state: np.ndarray) -> list[float]:
+        x, y, u, v = state
+        push = 0.1 / width**2 * math.exp(-((x - 4.987) ** 2 + y**2) / width**2)
+        return [u, v, (x - 4.987) * push, y * push]
+
+    def y_at_end(start: float) -> float:
+        beside, options = 4.987 - 8.0 * width, {"method": "DOP853", "rtol": 1e-12, "atol": 1e-15}
+        span = (beside, beside + 16.0 * width)  # before it, and behind it, the motion is straight
+        near = solve_ivp(forces, span, [beside, start, 1.0, 0.0], max_step=width, **options).y[:, -1]
+        return float(near[1] + (10.0 - span[1]) * near[3])
+
+    nudge = 1e-4 * width
+    sigma = abs(y_at_end(0.7 * width + nudge) - y_at_end(0.7 * width - nudge)) / 2.0
+    across = found["coordinates"][1]
+    assert across["linear"][-1] == pytest.approx(sigma, rel=1e-4)
+    assert across["linear_until"] is None
+    np.testing.assert_allclose(across["nonlinearity"], 0.0, atol=0.02)
+
+
+VIBRATIONS = {  # along x by ω = 1, across it by ω = 2, of places that are very far, very near, or at rest
+    "at rest across": ("m*(x^2 + 4*y^2)/2", (1.0, 0.0), (0.0, 0.0), 1e-3),
+    "both at rest": ("m*(x^2 + 4*y^2)/2", (0.0, 0.0), (0.0, 0.0), 1e-3),
+    "far from the origin": ("m*((x - far)^2 + 4*(y - far)^2)/2", (1e5 + 1.0, 0.0), (1e5 + 0.5, 0.0), 1e-3),
+    "much smaller than 1": ("m*(x^2 + 4*y^2)/2", (1e-9, 0.0), (1e-9, 0.0), 1e-12),
+    "curved within its way": ("m*w^2*(cosh(x/w) + 4*cosh(y/w) - 5)/2*2", (0.0, 0.0), (0.0, 1e-14), 1e-14),
+}
+
+
+@pytest.mark.parametrize("name", VIBRATIONS)
+@pytest.mark.parametrize("quantity", ["y", "dot(y)"])
+def test_deviations_are_carried_whatever_the_motion_is_like(name: str, quantity: str) -> None:
+    """δy = δy₀ cos 2t + δẏ₀ sin(2t)/2, though difference quotients have little to go by."""
+    energy, x, y, size = VIBRATIONS[name]
+    constants = {key: value for key, value in {"far": 1e5, "w": 1e-6}.items() if key in energy.replace("sqrt", "")}
+    found = ask(scene=plane(energy, x, y, **constants), tolerances={quantity: size}, runs=40)
+    t = np.array(found["t"])
+    true = size * np.abs(np.cos(2 * t) if quantity == "y" else np.sin(2 * t) / 2)
+    np.testing.assert_allclose(found["coordinates"][1]["linear"], true, rtol=1e-5, atol=1e-5 * size)
+
+
 def test_a_wrong_order_of_the_propagation_would_show() -> None:
     """Φ of the damped vibration by its closed form, to the accuracy of difference quotients."""
     scene = read_scene(line("k*x^2/2", DRAG, c=0.4))

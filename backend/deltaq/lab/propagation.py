@@ -1,8 +1,9 @@
 """Linear propagation: how small deviations are carried along a motion, D(t) = ∂y(t)/∂(y(0), p) with y = (q, q̇).
 
 Ḋ = J D + B, J = ∂f/∂y and B = ∂f/∂p along the motion, D(0) = (1, 0). So a covariance P₀ of the start becomes D P₀ Dᵀ.
-The steps are those of Gauss with three stages, of order 6, which no stiffness makes unstable; so many that twice as
-many say the same. Where forces may jump, D jumps with them in a way that J does not tell: there neighbours are run.
+The steps are those of Gauss with three stages, of order 6, which no stiffness makes unstable: parts of those that the
+motion itself takes, so that they pass over nothing either, and so many that twice as many say the same. Where forces
+may jump, D jumps with them in a way that J does not tell: there neighbours are run.
 Source: Hairer, Nørsett, Wanner, Solving Ordinary Differential Equations I, I.14; Hairer, Wanner, …II, IV.5.
 """
 
@@ -11,23 +12,24 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 
 from ..simulation.derivatives import derivatives
 from ..simulation.ensemble import Ensemble, run_ensemble
-from ..simulation.library import get_method
+from ..simulation.march import Integers
 from ..simulation.problem import Floats, Problem
-from ..simulation.run import run
-from .orbits import steps_of
+from .nominal import NominalMotion
 
-NUDGE = 1e-6  # of the size of a component, in difference quotients
+NUDGE = 1e-6  # of how far a component goes, in difference quotients
+LEAST, CARRIED = 2e-10, 1e-4  # of the size of a component, and of the deviation that is to be carried
 TURN = 0.5  # of the fastest part in a step, at first
 MOST_STEPS = 16_384
 TOGETHER = 256  # steps
 AGREE, KNOWN = 1e-7, 1e-3  # difference of D by so many and by twice as many steps: to stop, and to be shown
 LARGEST = 1e100
-NEAR, LEAST, ACCURATE = 1e-3, 1e-7, 1e-12  # neighbours: over the tolerance, over the values; error of their motions
+NEAR, APART, ACCURATE = 1e-3, 1e-7, 1e-12  # neighbours: over the tolerance, over the values; error of their motions
 
 _ROOT = math.sqrt(15.0)
 C = np.array([0.5 - _ROOT / 10.0, 0.5, 0.5 + _ROOT / 10.0])
@@ -74,14 +76,15 @@ def propagated(problem: Problem, samples: int, parameters: Sequence[int], sizes:
     """
     if problem.model.recurrences.conditions:
         return _by_neighbours(replace(problem, samples=samples), tuple(parameters), sizes)
-    linear = _Linear(problem, samples, tuple(parameters), sizes)
+    width = 2 * problem.degrees
+    linear = _Linear(NominalMotion.of(problem, samples, sizes[:width], MOST_STEPS // 2), tuple(parameters), sizes)
     parts = linear.parts()
     coarse = linear.solved(parts)
     while True:
-        fine = linear.solved(2 * parts)
+        parts = 2 * parts
+        fine = linear.solved(parts)
         apart = _apart(coarse.matrices, fine.matrices)
-        parts *= 2
-        if not (apart > AGREE).any() or 2 * parts * (samples - 1) > MOST_STEPS:
+        if not (apart > AGREE).any() or 2 * parts.sum() > MOST_STEPS:
             break
         coarse = fine
     known = (apart <= KNOWN).cumprod(axis=0, dtype=bool)[: len(fine.times), None, None]
@@ -92,7 +95,7 @@ def _by_neighbours(problem: Problem, parameters: tuple[int, ...], sizes: Floats)
     """D by central differences of motions a little apart; a quantity of size 0 has no neighbours, its column is 0."""
     n, start = problem.degrees, np.array([*problem.values, *problem.rates, *problem.parameters])
     places = np.concatenate([np.arange(2 * n), 2 * n + np.array(parameters, dtype=np.int64)])
-    nudges = np.where(sizes > 0.0, np.maximum(NEAR * sizes, LEAST * np.abs(start[places])), 0.0)
+    nudges = np.where(sizes > 0.0, np.maximum(NEAR * sizes, APART * np.abs(start[places])), 0.0)
     steps = np.zeros((len(places), len(start)))
     steps[np.arange(len(places)), places] = nudges
     rows = np.vstack([start, start + steps, start - steps])
@@ -118,90 +121,99 @@ def _apart(coarse: Floats, fine: Floats) -> Floats:
 
 @dataclass(frozen=True)
 class _Linear:
-    """What is integrated: a motion with its deviations by initial values and by some parameters."""
+    """What is integrated: the deviations of a motion by initial values and by some parameters."""
 
-    problem: Problem
-    samples: int
+    motion: NominalMotion
     parameters: tuple[int, ...]
     sizes: Floats
 
     @property
     def width(self) -> int:
         """Of (q, q̇)."""
-        return 2 * self.problem.degrees
+        return 2 * self.motion.problem.degrees
 
-    def parts(self) -> int:
-        """Steps between two samples that follow the fastest part."""
-        times = np.linspace(0.0, self.problem.t_end, self.samples)
-        states = self._states(times)
-        jacobians = self._slopes(times[: len(states)], states)[:, :, : self.width]
-        good = np.isfinite(jacobians).all(axis=(1, 2))
-        fastest = float(np.abs(np.linalg.eigvals(jacobians[good])).max(initial=0.0))
-        wanted = math.ceil(min(fastest * times[1] / TURN, 1e9))
-        return int(max(1, min(wanted, MOST_STEPS // (2 * (self.samples - 1)))))
+    def parts(self) -> Integers:
+        """Steps in each interval of the motion that follow the fastest part there: shape (intervals,)."""
+        motion = self.motion
+        jacobians = self._slopes(motion.grid[: len(motion.states)], motion.states)[:, :, : self.width]
+        good = np.flatnonzero(np.isfinite(jacobians).all(axis=(1, 2)))
+        fastest = np.zeros(len(motion.grid))
+        fastest[good] = np.abs(np.linalg.eigvals(jacobians[good])).max(axis=1)
+        wanted = np.diff(motion.grid) * np.maximum(fastest[:-1], fastest[1:]) / TURN
+        room = MOST_STEPS // 2 / max(float(np.ceil(wanted).sum()), 1.0)
+        return np.asarray(np.maximum(np.ceil(min(room, 1.0) * wanted), 1.0), dtype=np.int64)
 
-    def solved(self, parts: int) -> Propagation:
-        """The motion and D by so many steps between two samples."""
-        count = parts * (self.samples - 1)
-        h = self.problem.t_end / count
-        starts = h * np.arange(count)
-        times = np.concatenate([[0.0], np.column_stack([starts[:, None] + h * C, starts + h]).ravel()])
-        times[-1] = self.problem.t_end
-        states = self._states(times)
-        done = (len(states) - 1) // (len(C) + 1) // parts * parts
-        nodes = np.arange(len(times))[1:].reshape(count, len(C) + 1)[:done, :-1]
+    def solved(self, parts: Integers) -> Propagation:
+        """D at the samples, by so many steps in each interval of the motion, shape (intervals,)."""
+        motion, places = self.motion, self.motion.places
+        h = np.repeat(np.diff(motion.grid) / parts, parts)
+        begun = np.concatenate([[0], np.cumsum(parts)])  # steps before each interval
+        starts = np.repeat(motion.grid[:-1], parts) + h * (np.arange(len(h)) - np.repeat(begun[:-1], parts))
+        times = np.concatenate([[0.0], np.column_stack([starts[:, None] + h[:, None] * C, starts + h]).ravel()])
+        times[(len(C) + 1) * begun] = motion.grid
+        states = motion.at(times)
+        done = (len(states) - 1) // (len(C) + 1)
+        nodes = np.arange(len(times))[1:].reshape(len(h), len(C) + 1)[:done, :-1]
         matrices = [np.eye(self.width + len(self.parameters))]
         for first in range(0, done, TOGETHER):
-            some = nodes[first : first + TOGETHER]
-            for step in self._steps(times[some], states[some], h):
+            some = slice(first, first + TOGETHER)
+            for step in self._steps(times[nodes[some]], states[nodes[some]], h[:done][some]):
                 with np.errstate(over="ignore", invalid="ignore"):
                     matrices.append(step @ matrices[-1])
-        found = np.array(matrices[::parts])[:, : self.width]
+        at = begun[places]
+        at = at[at <= done]
+        found = np.array(matrices)[at, : self.width]
         found[~(np.abs(found) < LARGEST).all(axis=(1, 2)).cumprod().astype(bool)] = np.nan
-        return Propagation(times[:: 4 * parts][: len(found)], states[:: 4 * parts][: len(found)], found)
+        return Propagation(times[(len(C) + 1) * at], states[(len(C) + 1) * at], found)
 
-    def _states(self, times: Floats) -> Floats:
-        """(q, q̇) at these times, as far as the motion goes."""
-        steps = steps_of(self.problem, is_driven=True)
-        found = run(self.problem, get_method("taylor"), times, np.zeros(1, dtype=np.int64), steps)
-        return found.states[:, : self.width]
-
-    def _steps(self, times: Floats, states: Floats, h: float) -> Floats:
-        """The matrices of steps by the motion at their nodes, shapes (steps, 3) and (steps, 3, 2n)."""
+    def _steps(self, times: Floats, states: Floats, h: Floats) -> Floats:
+        """The matrices of steps of lengths h by the motion at their nodes, shapes (steps, 3) and (steps, 3, 2n)."""
         count, stages = times.shape
         whole = self.width + len(self.parameters)
         laws = np.zeros((count, stages, whole, whole))
         laws[:, :, : self.width] = self._slopes(times.ravel(), states.reshape(-1, self.width)).reshape(
             count, stages, self.width, whole
         )
-        left = -h * laws[:, :, :, None, :] * A[None, :, None, :, None]
+        left = -h[:, None, None, None, None] * laws[:, :, :, None, :] * A[None, :, None, :, None]
         left = left.reshape(count, stages * whole, stages * whole) + np.eye(stages * whole)
         slopes = np.linalg.solve(left, laws.reshape(count, stages * whole, whole)).reshape(laws.shape)
-        return np.asarray(np.eye(whole) + h * np.einsum("i,kiab->kab", WEIGHTS, slopes))
+        return np.asarray(np.eye(whole) + h[:, None, None] * np.einsum("i,kiab->kab", WEIGHTS, slopes))
 
     def _slopes(self, times: Floats, states: Floats) -> Floats:
         """(J, B) at states, shape (states, 2n, 2n + parameters), by central differences."""
-        nudges = NUDGE * np.maximum(np.abs(states).max(axis=0), self.sizes[: self.width])
-        found = np.zeros((len(times), self.width, self.width + len(self.parameters)))
+        problem, steps = self.motion.problem, self._nudges
+        found = np.zeros((len(times), self.width, len(steps)))
         for place in range(self.width):
-            step = np.where(np.arange(self.width) == place, nudges[place], 0.0)
-            found[:, :, place] = self._quotient(self.problem, self.problem, times, states + step, states - step)
-            found[:, :, place] /= 2.0 * nudges[place]
-        for number, place in enumerate(self.parameters):
-            value = self.problem.parameters[place]
-            nudge = NUDGE * max(abs(value), float(self.sizes[self.width + number]))
-            ahead, behind = (_changed(self.problem, place, value + sign * nudge) for sign in (1.0, -1.0))
+            step = np.where(np.arange(self.width) == place, steps[place], 0.0)
+            up, down = states + step, states - step
+            found[:, :, place] = self._quotient(problem, problem, times, up, down)
+            found[:, :, place] /= (up - down)[:, [place]]
+        for number, place in enumerate(self.parameters, self.width):
+            ahead, behind = (_changed(problem, place, sign * steps[number]) for sign in (1.0, -1.0))
             change = self._quotient(ahead, behind, times, states, states)
-            found[:, :, self.width + number] = change / (2.0 * nudge)
+            found[:, :, number] = change / (ahead.parameters[place] - behind.parameters[place])
         return np.nan_to_num(found, posinf=0.0, neginf=0.0)
+
+    @cached_property
+    def _nudges(self) -> Floats:
+        """How far neighbours are away from the motion, in each component and parameter: shape (2n + parameters,).
+
+        It is a part of how far they go, the smaller the shorter the steps that the motion takes somewhere: forces
+        change there over as short a way. No less than what rounding needs, and what is to be carried.
+        """
+        motion = self.motion
+        values = np.array(motion.problem.parameters)[list(self.parameters)]
+        ways = np.concatenate([motion.scales, np.abs(values)])
+        sizes = np.concatenate([np.abs(motion.states).max(axis=0), np.abs(values)])
+        return np.maximum(np.maximum(NUDGE * motion.finest * ways, LEAST * sizes), CARRIED * self.sizes)
 
     def _quotient(self, ahead: Problem, behind: Problem, times: Floats, up: Floats, down: Floats) -> Floats:
         found = derivatives(ahead, times, up) - derivatives(behind, times, down)
         return np.asarray(found[:, : self.width])
 
 
-def _changed(problem: Problem, place: int, value: float) -> Problem:
+def _changed(problem: Problem, place: int, change: float) -> Problem:
     """The problem with another value of one parameter."""
     values = list(problem.parameters)
-    values[place] = value
+    values[place] += change
     return replace(problem, parameters=tuple(values))

@@ -14,7 +14,7 @@ from .audit import Audit
 from .integration import Flag
 from .kernels.motion import FINE, STEP_UNDERFLOW
 from .method import Method
-from .pieces import Pieces
+from .pieces import Pieces, Stretch
 from .problem import Floats, Problem
 from .run import Run, Steps
 from .run import run as run_once
@@ -47,7 +47,9 @@ def watched(
         for k in range(1, len(ends)):
             n = problem.degrees
             own = replace(problem, values=tuple(state[:n].tolist()), rates=tuple(state[n:].tolist()), t_end=ends[k])
-            found, outcome = _seen(own, method, ends[k - 1 : k + 1], steps, tolerance, cancelled)
+            whole = replace(steps, pieces=Pieces.whole(ends[k]))
+            found, blind = seen(own, method, ends[k - 1 : k + 1], whole, tolerance, cancelled, ROUNDS)
+            outcome = STEP_UNDERFLOW if blind else found.result.outcome
             taken += found.result.steps
             if outcome != FINE:
                 return Watched(states, outcome, taken)
@@ -56,15 +58,19 @@ def watched(
     return Watched(states, FINE, taken)
 
 
-def _seen(
-    problem: Problem, method: Method, times: Floats, steps: Steps, tolerance: float, cancelled: Flag
-) -> tuple[Run, int]:
-    """A run between two times with steps that see all that matters, and how it ended."""
-    audit, pieces = Audit(problem, method), Pieces.whole(float(times[-1]))
-    for _ in range(ROUNDS):
+def seen(
+    problem: Problem, method: Method, times: Floats, steps: Steps, tolerance: float, cancelled: Flag, rounds: int
+) -> tuple[Run, tuple[Stretch, ...]]:
+    """A recorded run with samples at `times`, shape (times,), and where it is still blind after so many rounds.
+
+    Each round has shorter steps where the one before could have passed over what moves coordinates by more than the
+    `tolerance`. A run that ends early is told as it is.
+    """
+    audit, pieces = Audit(problem, method), steps.pieces or Pieces.whole(float(times[-1]))
+    for _ in range(rounds):
         found = run_once(problem, method, times, cancelled, replace(steps, pieces=pieces, is_recorded=True))
         blind = audit.after(found, tolerance) if found.result.outcome == FINE else ()
         if not blind:
-            return found, found.result.outcome
+            break
         pieces = pieces.with_bounds([(each.start, each.end, each.step) for each in blind])
-    return found, STEP_UNDERFLOW
+    return found, blind
