@@ -38,10 +38,23 @@ def test_frozen_coordinate_becomes_an_input() -> None:
 
 def test_model_survives_pickling() -> None:
     model = compile_model(load_scene("elastic-pendulum"))
+    assert model.motion.addresses[0] > 0
     copy = pickle.loads(pickle.dumps(model))
     rows = np.random.default_rng(1).uniform(0.1, 1.0, (3, model.motion.inputs))
     np.testing.assert_array_equal(copy.motion.table(rows), model.motion.table(rows))
-    assert copy.motion.addresses[0] > 0
+    assert copy.motion.addresses != model.motion.addresses, "those of another process"
+
+
+@pytest.mark.parametrize("name", all_scenes())
+def test_one_state_gives_the_same_numbers_as_many(name: str) -> None:
+    """To the last bit: a state behind an event is looked at alone, samples together."""
+    model = compile_model(get_scene(name))
+    rows = np.random.default_rng(2).uniform(0.1, 1.0, (4, model.motion.inputs))
+    several = model.system(rows)
+    for k, row in enumerate(rows):
+        one = model.system_at(row)
+        for part in ("mass", "forces", "rows", "bends"):
+            np.testing.assert_array_equal(getattr(one, part)[0], getattr(several, part)[k])
 
 
 @pytest.mark.parametrize("name", all_scenes())

@@ -29,16 +29,18 @@ class LinearSystem:
 def linear_system(layout: Layout, table: Floats) -> LinearSystem:
     """The system of each row of `table`, shape (states, outputs): what `Model.motion` gives."""
     n, m, states = layout.degrees, len(layout.multipliers), len(table)
-    lower, right = _triangle(n)
-    first = lower.size + n + (n + 1 if layout.is_powered else 0)
-    mass = np.zeros((states, n, n))
-    mass[:, lower, right] = mass[:, right, lower] = table[:, : lower.size]
-    forces = table[:, lower.size : lower.size + n]
+    places = _places(n)
+    size = n * (n + 1) // 2
+    first = size + n + (n + 1 if layout.is_powered else 0)
     rows = table[:, first : first + m * n].reshape(states, m, n)
-    return LinearSystem(mass, forces, rows, table[:, first + m * n : first + m * n + m])
+    bends = table[:, first + m * n : first + m * n + m]
+    return LinearSystem(table[:, places], table[:, size : size + n], rows, bends)
 
 
 @lru_cache(maxsize=64)
-def _triangle(n: int) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
-    """The rows and columns of M's lower triangle, row by row; behind an event they are asked for many times."""
-    return np.tril_indices(n)
+def _places(n: int) -> NDArray[np.intp]:
+    """Where each entry of M stands in its lower triangle, packed row by row: shape (n, n)."""
+    lower, right = np.tril_indices(n)
+    places = np.zeros((n, n), dtype=np.intp)
+    places[lower, right] = places[right, lower] = np.arange(lower.size)
+    return places

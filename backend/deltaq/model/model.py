@@ -96,6 +96,10 @@ class Model:
         """M q̈ = f + Aᵀλ, A q̈ = γ at states whose inputs are given: shape (states, inputs)."""
         return linear_system(self.layout, self.motion.table(inputs))
 
+    def system_at(self, row: Floats) -> LinearSystem:
+        """The same at one state, from its inputs as a row of shape (inputs,)."""
+        return linear_system(self.layout, self.motion.at(row)[None, :])
+
     @cached_property
     def tape(self) -> Tape:
         """The operations of M and f, of the values of guided coordinates and of their rates, of A and γ."""

@@ -19,7 +19,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
-from functools import lru_cache
+from functools import cached_property, lru_cache
 from itertools import combinations
 
 import symengine as se
@@ -76,22 +76,22 @@ class Modes:
     pins: int
     coupled: frozenset[tuple[int, int]]
 
-    @property
+    @cached_property
     def bounded(self) -> int:
         """How many rows have reactions with bounds: frictions, then switches."""
         return len(self.frictions) + len(self.switches)
 
-    @property
+    @cached_property
     def first_pin(self) -> int:
         """The first row of a switch of places alone."""
         return self.bounded - self.pins
 
-    @property
+    @cached_property
     def rows(self) -> int:
         """How many rows may be held: frictions, switches, then contacts."""
         return self.bounded + len(self.contacts)
 
-    @property
+    @cached_property
     def watched(self) -> int:
         """How many values are watched."""
         return len(self.ending) + len(self.kinks) + 2 * self.bounded + len(self.contacts)

@@ -214,7 +214,7 @@ def _fill(record: _Record, times: Floats, event: Event, degrees: int) -> None:
 def _next(current: ModeState, event: Event, record: _Record) -> ModeState | None:
     """The state behind an event, None if it exceeds all numbers; its name is recorded, with the energy that it took."""
     n = len(current.q)
-    before = replace(current, time=event.time, q=event.state[:n].copy(), v=event.state[n : 2 * n].copy())
+    before = current.at(event.time, event.state[:n].copy(), event.state[n : 2 * n].copy())
     after, name, kind = passed(before, event.index)
     if not (before.is_finite and after.is_finite):
         return None
@@ -244,16 +244,16 @@ def _shaken(current: ModeState, number: int, pattern: int) -> ModeState:
     size = np.abs(current.v) + current.time * np.abs(current.accelerations)
     change = SHAKE * size * np.cos(2.0 * np.arange(len(size)) + pattern * (number + 2.0))
     kept = current.moved_by(current.mass @ change) if len(current.kept[0]) else change
-    return with_offsets(replace(current, v=current.v + kept))
+    return with_offsets(current.at(current.time, current.q, current.v + kept))
 
 
 def _falling(current: ModeState, event: Event) -> Event:
     """An event that ends the motion, with the first two derivatives of its value along the motion by differences."""
     n = len(current.q)
-    at = replace(current, time=event.time, q=event.state[:n].copy(), v=event.state[n : 2 * n].copy())
+    at = current.at(event.time, event.state[:n].copy(), event.state[n : 2 * n].copy())
     rates = at.accelerations
     before, now, after = (
-        replace(at, time=at.time + h, q=at.q + h * (at.v + 0.5 * h * rates), v=at.v + h * rates).watched[event.index]
+        at.at(at.time + h, at.q + h * (at.v + 0.5 * h * rates), at.v + h * rates).watched[event.index]
         for h in (-NEAR, 0.0, NEAR)
     )
     return replace(event, fall=(after - before) / (2.0 * NEAR), bend=(after - 2.0 * now + before) / NEAR**2)

@@ -225,6 +225,12 @@ def watch_of(problem: Problem, flag: Flag, scheme: Scheme | None = None) -> Watc
 
 
 @cache
+def _no_switch() -> Switch:
+    """For motions without friction: nothing is written to these arrays."""
+    return make_switch((0, 0), 0, np.zeros(1), 0)
+
+
+@cache
 def _nothing_watched() -> Watch:
     """For motions without events and friction: nothing is written to these arrays."""
     return unwatched(np.zeros(1, dtype=np.int64))
@@ -234,7 +240,7 @@ def _switch_of(problem: Problem) -> Switch:
     """Where forces jump with the rates, for kernels."""
     function = problem.model.switches
     if function is None:
-        return make_switch((0, 0), 0, np.zeros(1), 0)
+        return _no_switch()
     inputs = np.zeros(function.inputs)
     inputs[2 * problem.degrees + 1 :] = problem.parameters
     return make_switch(function.addresses, function.outputs, inputs, problem.state.size)

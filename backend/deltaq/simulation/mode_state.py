@@ -63,24 +63,23 @@ class ModeState:
     v: Floats
     mode: Mode
 
-    @property
+    @cached_property
     def row(self) -> Floats:
-        """Inputs of the model's functions: shape (1, inputs)."""
+        """Inputs of the model's functions: shape (inputs,)."""
         own = self.problem.parameters[: len(self.problem.parameters) - len(self.mode.parameters)]
-        return np.array([[*self.q, *self.v, self.time, *own, *self.mode.parameters]])
+        return np.array([*self.q.tolist(), *self.v.tolist(), self.time, *own, *self.mode.parameters])
 
     @property
     def is_finite(self) -> bool:
         """Whether places, rates, time and kinetic energy are numbers."""
-        is_known = bool(np.isfinite(self.q).all() and np.isfinite(self.v).all() and math.isfinite(self.time))
-        return is_known and math.isfinite(self.kinetic)
+        return all(map(math.isfinite, (*self.q.tolist(), *self.v.tolist(), self.time, self.kinetic)))
 
     @cached_property
     def facts(self) -> Facts:
         """The rows with the flags of the mode."""
         n, rows, bounded = len(self.q), self.modes.rows, self.modes.bounded
         kinks, pins = len(self.modes.kinks), self.modes.pins
-        found = self.modes.facts.table(self.row)[0]
+        found = self.modes.facts.at(self.row)
         parts = found[: rows * (2 * n + 2)].reshape(rows, 2 * n + 2)
         rest = found[rows * (2 * n + 2) :]
         gaps = rest[bounded : bounded + 3 * len(self.modes.contacts)].reshape(-1, 3)
@@ -94,7 +93,7 @@ class ModeState:
     @cached_property
     def _system(self) -> LinearSystem:
         """What the model says of the motion, of this state alone."""
-        return self.problem.model.system(self.row)
+        return self.problem.model.system_at(self.row)
 
     @property
     def mass(self) -> Floats:
@@ -112,9 +111,10 @@ class ModeState:
         `forces` and what is returned have shape (n,), `bends` shape (m,). Rows that follow from others do so but for
         rounding, of which nothing is to be made.
         """
-        rows, count = self.kept[0], len(self.kept[0])
+        count = len(self.problem.model.layout.multipliers)
         if not count:
-            return np.asarray(np.linalg.solve(self.mass, forces))
+            return _solved(self.mass, forces)
+        rows = self.kept[0]
         scale = np.abs(self.mass).max() / (np.abs(rows).max() or 1.0)
         matrix = np.block([[self.mass, scale * rows.T], [scale * rows, np.zeros((count, count))]])
         right = np.concatenate([forces, np.zeros(count) if bends is None else scale * bends])
@@ -124,21 +124,22 @@ class ModeState:
     @cached_property
     def accelerations(self) -> Floats:
         """q̈ in this mode, shape (n,)."""
-        return self.moved_by(self._system.forces[0], self.kept[1])
+        return self.moved_by(self._system.forces[0], self._system.bends[0])
 
     @property
     def touching(self) -> list[int]:
         """The contacts that are closed, but for rounding."""
-        return [j for j, gap in enumerate(self.facts.gaps) if gap <= TOUCHING * self.scale(j) * size_of(self.q)]
+        size = TOUCHING * size_of(self.q)
+        return [j for j, gap in enumerate(self.facts.gaps.tolist()) if gap <= self.scale(j) * size]
 
     def scale(self, contact: int) -> float:
         """How far a gap changes with the coordinates, at most; 1 where it does not."""
-        return float(np.abs(self.facts.a[self.modes.bounded + contact]).max()) or 1.0
+        return max(map(abs, self.facts.a[self.modes.bounded + contact].tolist())) or 1.0
 
-    @property
+    @cached_property
     def watched(self) -> Floats:
         """The values that are positive as long as the mode lasts, with its offsets: shape (watched,)."""
-        return np.asarray(self.problem.model.events.table(self.row)[0])  # type: ignore[union-attr]
+        return self.problem.model.events.at(self.row)  # type: ignore[union-attr]
 
     @cached_property
     def kinetic(self) -> float:
@@ -146,16 +147,31 @@ class ModeState:
         with np.errstate(over="ignore", invalid="ignore"):  # what that makes of it is asked for
             return float(0.5 * self.v @ self.mass @ self.v)
 
+    def at(self, time: float, q: Floats, v: Floats) -> ModeState:
+        """Another state in the same mode; `q` and `v` have shape (n,)."""
+        return ModeState(self.problem, self.modes, time, q, v, self.mode)
+
+    def within(self, mode: Mode) -> ModeState:
+        """The same state in another mode."""
+        return ModeState(self.problem, self.modes, self.time, self.q, self.v, mode)
+
     def with_flags(self, flags: tuple[float, ...]) -> ModeState:
         """The same state with other rows held."""
-        return replace(self, mode=replace(self.mode, flags=flags))
+        return self.within(replace(self.mode, flags=flags))
 
     def pushed(self, row: int, change: float) -> ModeState:
         """The state behind an impulse along a row that changes its rate w by so much."""
         along = self.moved_by(self.facts.a[row])
-        return replace(self, v=self.v + along * (change / (self.facts.a[row] @ along)))
+        return self.at(self.time, self.q, self.v + along * (change / (self.facts.a[row] @ along)))
+
+
+def _solved(mass: Floats, forces: Floats) -> Floats:
+    """x of M x = forces, shape (n,); of a single coordinate by a division, as LAPACK has it with more ado."""
+    if len(mass) == 1 and mass[0, 0] != 0.0:
+        return np.asarray(forces / mass[0])
+    return np.asarray(np.linalg.solve(mass, forces))
 
 
 def size_of(values: Floats) -> float:
     """The largest absolute value, 1 at least; `values` has shape (n,)."""
-    return max(1.0, float(np.max(np.abs(values), initial=0.0)))
+    return float(max((1.0, *map(abs, values.tolist()))))

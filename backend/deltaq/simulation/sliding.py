@@ -50,7 +50,7 @@ def on_side(current: ModeState, row: int, side: float) -> ModeState:
     slips[row] = side or slips[row]
     flags = [*mode.flags]
     flags[row] = float(side == 0.0)
-    return replace(current, mode=replace(mode, slips=tuple(slips), flags=tuple(flags)))
+    return current.within(replace(mode, slips=tuple(slips), flags=tuple(flags)))
 
 
 def side_left_to(current: ModeState, row: int, *, has_come: bool) -> float:

@@ -85,7 +85,7 @@ def begun(problem: Problem, modes: Modes) -> ModeState:
     own = with_signs(problem, modes)
     current = ModeState(own, modes, 0.0, state[:n].copy(), state[n : 2 * n].copy(), empty)
     kinks, pins = (tuple(-1.0 if s < 0.0 else 1.0 for s in each) for each in (current.facts.kinks, current.facts.pins))
-    current = replace(current, mode=replace(empty, kinks=kinks, slips=(*empty.slips[: modes.first_pin], *pins)))
+    current = current.within(replace(empty, kinks=kinks, slips=(*empty.slips[: modes.first_pin], *pins)))
     closed = current.touching
     return _resolved(_after_impacts(current, closed[0]) if closed else current, frozenset(closed), None)
 
@@ -99,7 +99,7 @@ def passed(current: ModeState, watched: int) -> ModeEvent:
         if contact is not None and not mode.flags[modes.bounded + contact]:
             return _met(current, contact)
         kinks = tuple(-sign if k == place else sign for k, sign in enumerate(mode.kinks))
-        return _resolved(replace(current, mode=replace(mode, kinks=kinks)), frozenset(), None), "", "switch"
+        return _resolved(current.within(replace(mode, kinks=kinks)), frozenset(), None), "", "switch"
     place -= len(modes.kinks)
     if place < 2 * modes.bounded:
         return _come_or_gone(current, place // 2)
@@ -176,7 +176,7 @@ def _contact_before(current: ModeState, value: Callable[[Facts], float], sign: f
     `value` is that of the kink, `sign` the side that the motion is on.
     """
     facts, step = current.facts, NUDGE * size_of(current.q)
-    beside = [replace(current, q=current.q + step * each) for each in np.eye(len(current.q))]
+    beside = [current.at(current.time, current.q + step * each, current.v) for each in np.eye(len(current.q))]
     slope = np.array([value(each.facts) - value(facts) for each in beside])
     for j in current.touching:
         row = facts.a[current.modes.bounded + j]
@@ -200,7 +200,7 @@ def _closed(current: ModeState, contact: int) -> ModeState:
     lift = float(found.facts.a[row] @ along)
     if not (-TOUCHING * found.scale(contact) * size_of(found.q) <= gap < 0.0 and lift > 0.0):
         return found
-    return replace(found, q=found.q - gap / lift * along)
+    return found.at(found.time, found.q - gap / lift * along, found.v)
 
 
 def _at_zero(current: ModeState, value: float, rate: float, bend: float) -> ModeState:
@@ -215,7 +215,7 @@ def _at_zero(current: ModeState, value: float, rate: float, bend: float) -> Mode
         return current
     rates = current.accelerations
     q, v = current.q - late * (current.v - 0.5 * late * rates), current.v - late * rates
-    return replace(current, time=current.time - late, q=q, v=v)
+    return current.at(current.time - late, q, v)
 
 
 def _after_impacts(current: ModeState, first: int) -> ModeState:
@@ -230,7 +230,7 @@ def _after_impacts(current: ModeState, first: int) -> ModeState:
         rates = {j: float(free.facts.w[first_row + j]) for j in touching}
         j = min(rates, key=lambda each: rates[each] / free.scale(each))
         if rates[j] >= -STILL * free.scale(j) * size_of(free.v):
-            return replace(free, mode=current.mode)
+            return free.within(current.mode)
         e = 0.0 if _rests(free, first_row + j, j) else float(free.facts.restitutions[j])
         free = free.pushed(first_row + j, -(1.0 + e) * rates[j])
     raise UnsettledError
@@ -281,7 +281,7 @@ def _resolved(current: ModeState, closed: frozenset[int], released: int | None, 
         held[:bounded] = [sticks and not across[k] for k, sticks in enumerate(sticking)]
         slips = [across[k] or slip for k, slip in enumerate(slips)]
         flags = tuple(float(h) for h in held)
-        trial = replace(current, mode=replace(current.mode, flags=flags, slips=tuple(slips)))
+        trial = current.within(replace(current.mode, flags=flags, slips=tuple(slips)))
         lost = _lost(trial, held)
         if lost is None:
             break
@@ -289,7 +289,8 @@ def _resolved(current: ModeState, closed: frozenset[int], released: int | None, 
         if lost < bounded:
             sticking[lost] = False
             slips[lost] = _left(trial, lost, has_come=lost == come)
-    found = replace(current, mode=replace(current.mode, flags=tuple(map(float, held)), slips=tuple(slips)))
+    found = current.within(replace(current.mode, flags=tuple(map(float, held)), slips=tuple(slips)))
+    found = trial if found.mode == trial.mode else found  # of which all is known already
     return with_offsets(settled(found, [row for row in at_zero if not across[row]]))
 
 
@@ -362,17 +363,18 @@ def with_offsets(current: ModeState) -> ModeState:
 
     What moves with the time alone, a table say, is somewhere else by what rounding does to the time.
     """
-    modes = current.modes
-    plain = replace(current, mode=replace(current.mode, offsets=(0.0,) * modes.watched))
-    later = replace(plain, time=plain.time + TICKS * math.ulp(plain.time))
-    moved = np.abs(later.watched - plain.watched)
+    modes, mode = current.modes, current.mode
+    plain = current if not any(mode.offsets) else current.within(replace(mode, offsets=(0.0,) * modes.watched))
+    later = plain.at(plain.time + TICKS * math.ulp(plain.time), plain.q, plain.v)
+    values, moved = plain.watched.tolist(), np.abs(later.watched - plain.watched).tolist()
     ending = len(modes.ending)
     first = ending + len(modes.kinks)
     pins, last = first + 2 * modes.first_pin, first + 2 * modes.bounded
+    of_rates, of_places = HARDLY * size_of(current.v), ROUNDING * size_of(current.q)
     offsets = []
-    for place, value in enumerate(plain.watched):
-        room = HARDLY * size_of(current.v) if first <= place < pins else ROUNDING * size_of(current.q)
+    for place, value in enumerate(values):
+        room = of_rates if first <= place < pins else of_places
         room *= current.scale(place - last) if place >= last else 1.0
-        room += float(moved[place])
-        offsets.append(0.0 if place < ending or value > room else room - min(float(value), 0.0))
-    return replace(current, mode=replace(current.mode, offsets=tuple(offsets)))
+        room += moved[place]
+        offsets.append(0.0 if place < ending or value > room else room - min(value, 0.0))
+    return current.within(replace(mode, offsets=tuple(offsets)))
