@@ -34,6 +34,21 @@ def test_default_member() -> None:
     assert len(changed({"scene": "chain-pendulum"}).free) == ChainPendulum.default
 
 
+def test_documents_that_come_again_are_told_apart_by_every_part() -> None:
+    """A scene that is kept is none of another document, nor of the same one changed since, nor one with a problem."""
+    document = write_scene(load_scene("pendulum"))
+    first = changed({"scene": document})
+    assert changed({"scene": document, "parameters": {"l": 0.25}}).parameters[1].value == 0.25
+    assert changed({"scene": document}) == first
+    document["parameters"][1]["value"] = 1.5
+    assert changed({"scene": document}).parameters[1].value == 1.5
+    document["parameters"][1]["value"] = "long"
+    for _ in range(2):
+        with pytest.raises(InputError) as caught:
+            changed({"scene": document})
+        assert caught.value.problems[0].pointer == "/scene/parameters/1/value"
+
+
 SIZE = {"name": "n", "least": 1, "most": 12}
 REFUSED = [
     pytest.param("chain-pendulum", {"n": 13}, Problem("family-size", "/parameters/n", parameters=SIZE), id="too many"),

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
+from functools import lru_cache
 from typing import Protocol
 
 from ..errors import InputError
@@ -24,7 +26,23 @@ def requested_scene(
     if isinstance(reference, str):
         return _named(reference, parameters)
     with inside("/scene"):
-        return read_scene(reference), parameters
+        return _brought(reference), parameters
+
+
+def _brought(document: Mapping[str, object]) -> Scene:
+    """The scene of a document; of one that came before, as it does with every value that is tried, that from then."""
+    try:
+        text = json.dumps(document)
+    except (TypeError, ValueError, RecursionError):  # what is no JSON is read all the same, or refused
+        return read_scene(document)
+    return _read(text)
+
+
+@lru_cache(maxsize=32)
+def _read(text: str) -> Scene:
+    """The scene that a document describes, written as JSON. Raises SceneError, each time anew."""
+    document: dict[str, object] = json.loads(text)
+    return read_scene(document)
 
 
 class ChangedScene(Protocol):
