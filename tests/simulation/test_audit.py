@@ -158,6 +158,19 @@ def test_a_switch_costs_no_order() -> None:
     assert found[-1].cost.steps < 20 * found[0].cost.steps
 
 
+def test_what_was_seen_on_a_path_is_not_taken_for_the_start() -> None:
+    """How forces depend on time is bounded at the initial values, whatever the mass has come to in between."""
+    problem, method = problem_of(driven("100*x*sin(50*t)", 0.0, m=1.0), 10.0), get_method("dop853")
+    moved = replace(problem, values=(3.0,), rates=(1.0,), t_end=0.1)
+    recorded = Steps(0.01, is_recorded=True)
+    path = run_once(moved, method, np.linspace(0.0, 0.1, 3), np.zeros(1, dtype=np.int64), recorded)
+    audit = Audit(problem, method)
+    before = audit.before(1e-6)
+    assert len(path.mesh_times) > 2
+    audit.after(path, 1e-6)
+    assert audit.before(1e-6) == before
+
+
 def test_a_narrow_wall_on_the_way_is_seen() -> None:
     """A hill of 0.6 J, narrower than a step, turns back a mass of 1 kg at 1 m/s."""
     source = Random(3)

@@ -216,10 +216,9 @@ class Integrator:
 
     def _blind(self, fine: Run, tolerance: float) -> tuple[Stretch, ...]:
         """Where a run was blind, stretch by stretch in its mode if it went on behind events."""
-        if self.modes is None:
-            return self.audit.after(fine, tolerance)
-        audits = (Audit(each.problem, self.method).after(each, tolerance) for each in fine.meshes)
-        return tuple(blind for found in audits for blind in found)
+        return (
+            self.audit.after(fine, tolerance) if self.modes is None else self.audit.after_each(fine.meshes, tolerance)
+        )
 
     def _comparable(self, before: Attempt, fine: Steps) -> Run | None:
         """The finer run of an attempt if it can stand for the coarser one of the next."""

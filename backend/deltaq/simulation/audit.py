@@ -8,6 +8,7 @@ ends before it and one that begins behind it.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -106,20 +107,28 @@ class Audit:
                     return GuideJump(name, before)
         return None
 
-    def after(self, run: Run | Mesh, tolerance: float) -> tuple[Stretch, ...]:
+    def after(self, run: Run, tolerance: float) -> tuple[Stretch, ...]:
         """The stretches of a recorded run on which it was blind, for a tolerance of the coordinates."""
-        path = _path(self.problem, run)
-        if len(path.times) < 2:
+        return self.after_each((Mesh(self.problem, 0.0, run.mesh_times, run.mesh_states, run.stride),), tolerance)
+
+    def after_each(self, meshes: Sequence[Mesh], tolerance: float) -> tuple[Stretch, ...]:
+        """The same of a run that went on behind events, each mesh in its mode: a problem with other parameters."""
+        paths = [(mesh, _path(mesh)) for mesh in meshes if len(mesh.mesh_times) > 1]
+        if not paths:
             return ()
-        rules = Rules(self.limit, self.threshold(tolerance), float(run.stride))
-        width = 2 * self.problem.degrees + 1
-        workspace, blind = _make_workspace(self.tape_arrays.codes.size), _make_blind()
-        rows = self.problem.inputs(path.times[:-1:GROUP], np.hstack([path.q[:-1:GROUP], path.v[:-1:GROUP]]))
-        seeds = self.seeds(rows)
-        inspect(self.tape_arrays, self._ranges, path, seeds, rules, workspace, np.zeros((2, width)), blind)
-        count = int(blind.found[0])
-        columns = (column[:count].tolist() for column in (blind.starts, blind.ends, blind.steps))
-        return tuple(Stretch(*row) for row in zip(*columns, strict=True))
+        rows = [each.problem.inputs(each.mesh_times[:-1:GROUP], each.mesh_states[:-1:GROUP]) for each, _ in paths]
+        seeds = np.split(self.seeds(np.vstack(rows)), np.cumsum([len(each) for each in rows])[:-1])
+        threshold, ranges, width = self.threshold(tolerance), self._ranges_of(), 2 * self.problem.degrees + 1
+        workspace, blind, spare = _make_workspace(self.tape_arrays.codes.size), _make_blind(), np.zeros((2, width))
+        found: list[Stretch] = []
+        for (mesh, path), own, row in zip(paths, seeds, rows, strict=True):
+            ranges.inputs_low[width:] = ranges.inputs_high[width:] = row[0, width:]
+            workspace.looked[0] = blind.found[0] = 0
+            rules = Rules(self.limit, threshold, float(mesh.stride))
+            inspect(self.tape_arrays, ranges, path, own, rules, workspace, spare, blind)
+            columns = (column[: blind.found[0]].tolist() for column in (blind.starts, blind.ends, blind.steps))
+            found += [Stretch(*each) for each in zip(*columns, strict=True)]
+        return tuple(found)
 
     def watcher(self, capacity: int) -> Watcher:
         """Who looks at steps of motions of this model, up to so many at a time of each; one for each thread."""
@@ -273,9 +282,9 @@ def _make_workspace(operations: int) -> AuditWorkspace:
     return AuditWorkspace(*_columns(DEEPEST), looked, flips, np.zeros(operations))
 
 
-def _path(problem: Problem, run: Run | Mesh) -> Path:
-    """The recorded mesh of a run as a path; q̈ of its cubic jumps at the ends of steps."""
-    n, times, states = problem.degrees, run.mesh_times, run.mesh_states
+def _path(mesh: Mesh) -> Path:
+    """The mesh of a run as a path; q̈ of its cubic jumps at the ends of steps."""
+    n, times, states = mesh.problem.degrees, mesh.mesh_times, mesh.mesh_states
     q, v = np.ascontiguousarray(states[:, :n]), np.ascontiguousarray(states[:, n : 2 * n])
     jumps = np.zeros_like(q)
     if len(times) > 2:
@@ -285,7 +294,7 @@ def _path(problem: Problem, run: Run | Mesh) -> Path:
             ends = (2.0 * v[:-1] + 4.0 * v[1:] - 6.0 * slopes) / h
             begins = (6.0 * slopes - 4.0 * v[:-1] - 2.0 * v[1:]) / h
         found = np.abs(ends[:-1] - begins[1:])
-        short = np.minimum(h[:-1], h[1:])[:, 0] <= 1e-13 * problem.t_end
+        short = np.minimum(h[:-1], h[1:])[:, 0] <= 1e-13 * mesh.problem.t_end
         found[short] = 0.0
         jumps[1:-1] = np.nan_to_num(found, nan=0.0, posinf=0.0)
         jumps[0], jumps[-1] = jumps[1], jumps[-2]
