@@ -10,18 +10,16 @@ import math
 import sys
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
-from typing import Any, TypeAlias
 
 import numpy as np
 
 from .derivatives import accelerations
+from .kernels.root import find_root
 from .kernels.watch import Watch
 from .problem import Floats, Problem
 
 ROUNDS, PARTS = 12, 32  # each round looks at so many parts of what the one before left: 32¹² > 2⁵³
 CLOSER = 6  # rounds for a minimum, each an eighth of the part before; its value is flat
-MOST_ROOT_STEPS = 100
-Point: TypeAlias = tuple[float, float]  # a place and the value there
 NUDGE, LEAST_NUDGE = 0.01, 1e-6  # of the step, and seconds
 
 
@@ -127,7 +125,7 @@ def first_event(problem: Problem, watch: Watch, t_end: float) -> Event | None:
 
 
 def quick_event(problem: Problem, watch: Watch, t_end: float) -> Event | None:
-    """`first_event` for runs that go on behind events: from the values that the kernel saw, by the Illinois method.
+    """`first_event` for runs that go on behind events: from the values that the kernel saw (`kernels.root`).
 
     Those that fell between two places that the kernel looked at are left to it.
     """
@@ -135,76 +133,18 @@ def quick_event(problem: Problem, watch: Watch, t_end: float) -> Event | None:
     if (watch.least <= 0.0).sum() > (watch.values <= 0.0).any(axis=0).sum() or not fallen.any():
         return first_event(problem, watch, t_end) if (watch.least <= 0.0).any() else None
     last = int(np.argmax(fallen))
-    indices = np.flatnonzero(watch.values[last] <= 0.0)
     if last == 0:
         return first_event(problem, watch, t_end)
-    look = _Look(problem, watch)
-    a, b = float(watch.nodes[last - 1]), float(watch.nodes[last])
-    roots = [(look.root(int(j), a, b, watch.values[last - 1, j], watch.values[last, j]), int(j)) for j in indices]
-    x, index = min(roots)
-    time = look.time(x)
-    return Event(index, time, look.state(x), 0.0, 0.0) if time <= t_end else None
-
-
-class _Look:
-    """Values of events at places of a step, one at a time and without the detours of tables."""
-
-    def __init__(self, problem: Problem, watch: Watch) -> None:
-        self._nodes, self._states, self._times = watch.nodes, watch.states, watch.times
-        self._weights = np.where(np.arange(watch.nodes.size) % 2 == 0, 1.0, -1.0)
-        self._weights[[0, -1]] *= 0.5
-        self._row = problem.inputs(watch.times[:1], watch.states[:1])[0]
-        self._width = 2 * problem.degrees
-        self._function: Any = problem.model.events.function if problem.model.events is not None else None
-
-    def time(self, x: float) -> float:
-        return float(self._times[0] + (self._times[-1] - self._times[0]) * x)
-
-    def state(self, x: float) -> Floats:
-        """By the barycentric formula, shape (width,)."""
-        apart = x - self._nodes
-        at = np.flatnonzero(apart == 0.0)
-        if at.size:
-            return np.array(self._states[at[0]])
-        shares = self._weights / apart
-        first = self._states[0]
-        return np.asarray(first + (shares @ (self._states - first)) / shares.sum())
-
-    def value(self, index: int, x: float) -> float:
-        self._row[: self._width] = self.state(x)[: self._width]
-        self._row[self._width] = self.time(x)
-        return float(np.asarray(self._function(self._row)).ravel()[index])
-
-    def root(self, index: int, a: float, b: float, above: float, below: float) -> float:
-        """A place with a value ≤ 0, as near to one with a positive one as times can be told apart.
-
-        Source: T. R. Chandrupatla, Advances in Engineering Software 28 (1997) 145–149: inverse quadratic interpolation
-        where three values allow it, else the middle.
-        """
-        span = float(self._times[-1] - self._times[0])
-        near = max(math.ulp(b), 0.5 * math.ulp(self.time(b)) / span if span > 0.0 else 0.0)
-        (x1, f1), (x2, f2), part = (b, below), (a, above), below / (below - above)
-        for _ in range(MOST_ROOT_STEPS):
-            x = x1 + min(max(part, near / abs(x2 - x1)), 1.0 - near / abs(x2 - x1)) * (x2 - x1)
-            found = self.value(index, x)
-            if (found > 0.0) == (f1 > 0.0):
-                x3, f3 = x1, f1
-            else:
-                x3, f3, x2, f2 = x2, f2, x1, f1
-            x1, f1 = x, found
-            if abs(x2 - x1) <= 2.0 * near or f1 == 0.0:
-                break
-            part = _inverse_quadratic((x1, f1), (x2, f2), (x3, f3))
-        return x1 if f1 <= 0.0 else x2
-
-
-def _inverse_quadratic(new: Point, across: Point, old: Point) -> float:
-    """The part of the way from the newest place to that across the root; half of it where three values do not tell."""
-    (x1, f1), (x2, f2), (x3, f3) = new, across, old
-    xi, phi = (x1 - x2) / (x3 - x2), (f1 - f2) / (f3 - f2)
-    if not (phi * phi < xi and (1.0 - phi) ** 2 < 1.0 - xi):
-        return 0.5
-    return f1 / (f2 - f1) * f3 / (f2 - f3) + (x3 - x1) / (x2 - x1) * f1 / (f3 - f1) * f2 / (f3 - f2)
+    start, span = float(watch.times[0]), float(watch.times[-1] - watch.times[0])
+    b, state, values = float(watch.nodes[last]), np.empty(watch.states.shape[1]), np.empty(watch.functions)
+    near = max(math.ulp(b), 0.5 * math.ulp(start + span * b) / span if span > 0.0 else 0.0)
+    found: list[tuple[float, int, Floats]] = []
+    for j in np.flatnonzero(watch.values[last] <= 0.0).tolist():
+        x = find_root(watch, problem.degrees, j, last, near, state, values)
+        found.append((x, j, state.copy()))
+    x, index, state = min(found, key=lambda each: each[:2])
+    time = start + span * x
+    return Event(index, time, state, 0.0, 0.0) if time <= t_end else None
 
 
 def approaches(problem: Problem, watch: Watch, t_end: float) -> tuple[Approach, ...]:
