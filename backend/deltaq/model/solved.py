@@ -116,10 +116,8 @@ class Solved:
     @property
     def motion(self) -> list[Expr]:
         """What a model without constraints would say that moves alike, M = 1, f = q̈ and P, then `signs`."""
-        n, power = len(self.accelerations), []
-        if self.eqs.is_powered:
-            own = self.eqs.power + dot(self.eqs.acceleration_power, self.accelerations)
-            power = [own - dot(self.multipliers, self._held.drives), *[ZERO] * n]
+        n = len(self.accelerations)
+        power = [self.power, *[ZERO] * n] if self.eqs.is_powered else []
         identity = [ONE if j == i else ZERO for i in range(n) for j in range(i + 1)]
         return [*identity, *self.accelerations, *power, *self.signs]
 
@@ -133,9 +131,45 @@ class Solved:
         off = (along(self.responses, share) for share in shares)
         state = [of[name] for of in (symbols.values, symbols.rates) for name in symbols.free]
         moved = (number - change for number, change in zip(state, (part for each in off for part in each), strict=True))
-        rows = (entry for row in held.jacobian for entry in row)
+        return [*moved, *self._told(before)]
+
+    @property
+    def placed(self) -> list[Expr]:
+        """What q is off by in g, then how much per unit of each g, by columns: Δq = M⁻¹Aᵀ(AM⁻¹Aᵀ)⁻¹g.
+
+        With the latter a kernel takes g anew where q has moved, and corrects it once more by the same A and M: of a
+        correction of the size δ it leaves about δ³.
+        """
+        first = along(self.responses, self.share.solve(self._held.gaps))
+        count = len(self._held.gaps)
+        columns = (self.share.solve([ONE if i == k else ZERO for i in range(count)]) for k in range(count))
+        return [*first, *(part for column in columns for part in along(self.responses, column))]
+
+    def landed(self, before: Table) -> list[Expr]:
+        """What q̇ is off by in w, q̈ without that, then as `projected`, P, and the squares of the rows of A.
+
+        All of it by the factors of one M and one A, with q on the constraints.
+        """
+        symbols, held = self.eqs.symbols, self._held
+        rates = [symbols.rates[name] for name in symbols.free]
+        off = along(self.responses, self.share.solve(held.slips))
+        kept = {rate: rate - change for rate, change in zip(rates, off, strict=True)}
+        bends = [each.subs(kept) for each in self.accelerations]
+        power = self.power.subs(kept) if self.eqs.is_powered else ZERO
+        squares = (dot(row, row) for row in self._held.jacobian)
+        return [*off, *bends, *self._told(before), power, *squares]
+
+    def _told(self, before: Table) -> list[Expr]:
+        """A by rows, how it turned since `before`, then `signs`."""
+        rows = (entry for row in self._held.jacobian for entry in row)
         crossed = tuple(tuple(dot(row, each) for each in self.responses) for row in before)
-        return [*moved, *rows, turned(crossed), *self.signs]
+        return [*rows, turned(crossed), *self.signs]
+
+    @property
+    def power(self) -> Expr:
+        """P, with the power of the reactions."""
+        own = self.eqs.power + dot(self.eqs.acceleration_power, self.accelerations)
+        return own - dot(self.multipliers, self._held.drives)
 
     @property
     def reactions(self) -> Vector:
@@ -146,10 +180,50 @@ class Solved:
 
 @dataclass(frozen=True)
 class CompiledSolution:
-    """`Solved.motion` and `Solved.projected` as machine code; A `before` a step stands behind the latter's inputs."""
+    """What is solved for, as machine code, each part compiled when a method first asks for it.
 
-    motion: Compiled
-    projected: Compiled
+    A `before` a step stands behind the inputs of `projected` and `landed`.
+    """
+
+    found: Solved
+    effort: int
+
+    @cached_property
+    def motion(self) -> Compiled:
+        """`Solved.motion`."""
+        return compile_expressions(self._inputs, self.found.motion, self.effort)
+
+    @cached_property
+    def projected(self) -> Compiled:
+        """`Solved.projected`."""
+        return compile_expressions([*self._inputs, *self._before], self.found.projected(self._rows), self.effort)
+
+    @cached_property
+    def placed(self) -> Compiled | None:
+        """`Solved.placed`; None where no constraint is holonomic."""
+        held = self.found.eqs.constraints
+        if not held.gaps:
+            return None
+        return compile_expressions(self._inputs, self.found.placed, self.effort)
+
+    @cached_property
+    def landed(self) -> Compiled:
+        """`Solved.landed`."""
+        return compile_expressions([*self._inputs, *self._before], self.found.landed(self._rows), self.effort)
+
+    @property
+    def _inputs(self) -> Sequence[Expr]:
+        return self.found.eqs.symbols.inputs
+
+    @property
+    def _before(self) -> Vector:
+        eqs = self.found.eqs
+        return tuple(se.Symbol(f"before {k}") for k in range(len(eqs.constraints.slips) * len(eqs.forcing)))
+
+    @property
+    def _rows(self) -> Table:
+        before, n = self._before, len(self.found.eqs.forcing)
+        return tuple(before[k : k + n] for k in range(0, len(before), n))
 
 
 def solved(eqs: Equations) -> Solved | None:
@@ -174,15 +248,7 @@ def solved(eqs: Equations) -> Solved | None:
 def compiled_solution(eqs: Equations, effort: int) -> CompiledSolution | None:
     """The solution as machine code, where there is one."""
     found = solved(eqs)
-    if found is None:
-        return None
-    inputs, n, m = eqs.symbols.inputs, len(eqs.forcing), len(eqs.constraints.slips)
-    before = [se.Symbol(f"before {k}") for k in range(m * n)]
-    rows = tuple(tuple(before[k * n : (k + 1) * n]) for k in range(m))
-    return CompiledSolution(
-        compile_expressions(inputs, found.motion, effort),
-        compile_expressions([*inputs, *before], found.projected(rows), effort),
-    )
+    return None if found is None else CompiledSolution(found, effort)
 
 
 def _products(matrix: Sequence[Vector], m: int) -> float:

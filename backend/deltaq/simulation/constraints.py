@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from enum import Enum
 
 import numpy as np
 
+from ..model.model import Model
 from .kernels import system as kernel
 from .kernels.linear import Indices
 from .kernels.projection import settle_samples
+from .method import Method, Partitioned, Tableau
 from .problem import Floats, Problem
 
 
@@ -24,16 +27,33 @@ class Reactions:
         return Reactions(self.multipliers[:count], self.gaps[:count])
 
 
-def block(problem: Problem, *, is_long: bool = True, with_phase: bool = False, tells_end: bool = True) -> Floats:
+class Finish(Enum):
+    """What is asked for when the state at the end of a step is projected: that alone, or its derivative as well.
+
+    Where a step is little more than its end, both are LANDED, by code of their own in long runs.
+    """
+
+    STATE = "state"
+    DERIVATIVE = "derivative"
+    LANDED = "landed"
+
+    @classmethod
+    def of(cls, method: Method) -> Finish:
+        """What a method asks for."""
+        if not isinstance(method.tableau, Partitioned):
+            is_short = isinstance(method.tableau, Tableau) and method.is_explicit and method.tableau.stages == 1
+            return cls.LANDED if is_short else cls.DERIVATIVE
+        return cls.STATE
+
+
+def block(problem: Problem, *, is_long: bool = True, with_phase: bool = False, finish: Finish | None = None) -> Floats:
     """The memory of a model with constraints, which its functions are given: shape (size,).
 
-    It holds addresses of machine code that lives as long as the model. `tells_end`: whether the derivative at the end
-    of a step is asked for when its state is projected.
+    It holds addresses of machine code that lives as long as the model; `finish` is None where no steps are finished.
     """
     model = problem.model
     n, m = problem.degrees, len(model.layout.multipliers)
     motion = model.thorough if is_long else model.motion
-    solution = model.solution(is_long=is_long) if problem.rank == m else None
     phase = model.phase.function if with_phase else None
     outputs = 0 if phase is None else phase.outputs
     size = kernel.block_size(n, m, motion.inputs, motion.outputs, outputs)
@@ -54,17 +74,35 @@ def block(problem: Problem, *, is_long: bool = True, with_phase: bool = False, t
     gaps = model.thorough_gaps if is_long else model.gaps
     if gaps is not None:
         head[kernel.GAPS], head[kernel.GAPS_DATA] = gaps.addresses
-    if solution is not None:
-        head[kernel.SOLVED], head[kernel.SOLVED_DATA] = solution.motion.addresses
-        head[kernel.PROJECTED], head[kernel.PROJECTED_DATA] = solution.projected.addresses
+    if finish is not None and problem.rank == m:
+        _take_solution(head, model, finish, is_long=is_long)
     if phase is not None:
         head[kernel.PHASE], head[kernel.PHASE_DATA] = phase.addresses
-    head[kernel.TELLS_END] = tells_end
     first = kernel.HEAD + 2 * m
     head[kernel.HEAD : kernel.HEAD + m] = np.arange(m)
     memory[first + 2 * n + 1 : first + motion.inputs] = problem.parameters
     memory[-1] = 1.0  # the conditioning
     return memory
+
+
+def _take_solution(head: Indices, model: Model, finish: Finish, *, is_long: bool) -> None:
+    """The addresses of what is solved for in symbols, if it is; `head` has shape (size,).
+
+    A step that lands needs no other code for long runs: it reads accelerations where a run begins, and no more.
+    """
+    lands = finish is Finish.LANDED and is_long
+    solution = model.solution(is_long=is_long and not lands)
+    head[kernel.TELLS_END] = finish is not Finish.STATE
+    if solution is None:
+        return
+    head[kernel.SOLVED], head[kernel.SOLVED_DATA] = solution.motion.addresses
+    landing = model.solution(is_long=True) if lands else None
+    if landing is None:
+        head[kernel.PROJECTED], head[kernel.PROJECTED_DATA] = solution.projected.addresses
+        return
+    head[kernel.LANDED], head[kernel.LANDED_DATA] = landing.landed.addresses
+    if landing.placed is not None:
+        head[kernel.PLACED], head[kernel.PLACED_DATA] = landing.placed.addresses
 
 
 def solved_in(memory: Floats) -> tuple[int, int] | None:

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from ..model.pushes import Places
 from ..model.recurrences import nudged
-from .constraints import block, solved_in
+from .constraints import Finish, block, solved_in
 from .kernels.constraints import constrained_motion, constrained_phase
 from .kernels.explicit_runge_kutta import integrate
 from .kernels.implicit_runge_kutta import integrate_implicit
@@ -182,10 +182,10 @@ def _series(scheme: Series, arguments: KernelArguments) -> Result:
     return result
 
 
-def motion_of(problem: Problem, *, is_long: bool = True, tells_end: bool = True) -> Motion:
+def motion_of(problem: Problem, *, is_long: bool = True, finish: Finish = Finish.DERIVATIVE) -> Motion:
     """The right-hand side of a problem for kernels, in code for long runs or code that is compiled quickly.
 
-    `tells_end`: as in `constraints.block`.
+    `finish` is what is asked for at the end of a step.
     """
     motion = problem.model.thorough if is_long else problem.model.motion
     address, data = motion.addresses
@@ -196,7 +196,7 @@ def motion_of(problem: Problem, *, is_long: bool = True, tells_end: bool = True)
     found = Motion(address, data, problem.degrees, powered, inputs, outputs, conditioning, 0, 0, 0, _no_memory())
     if not problem.is_constrained:
         return found
-    memory = block(problem, is_long=is_long, tells_end=tells_end)
+    memory = block(problem, is_long=is_long, finish=finish)
     general, place = constrained_motion.address, memory.ctypes.data
     address, data = solved_in(memory) or (general, place)
     return found._replace(

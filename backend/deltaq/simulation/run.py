@@ -7,7 +7,7 @@ from time import perf_counter
 
 import numpy as np
 
-from .constraints import Reactions, is_locked, pivot_of
+from .constraints import Finish, Reactions, is_locked, pivot_of
 from .event import Approach, Event, approaches, first_event, quick_event
 from .forks import fork_passed, is_at_fork
 from .integration import Flag, KernelArguments, motion_of, run_kernel, watch_of
@@ -26,7 +26,7 @@ from .kernels.motion import (
 )
 from .kernels.plan import CAPACITY, COUNT, STRIDE, Plan, make_plan
 from .kernels.step_control import Control
-from .method import Method, Partitioned, Series
+from .method import Method, Series
 from .outcome import OUT_OF_REACH
 from .pieces import Pieces
 from .problem import Floats, Problem
@@ -181,7 +181,7 @@ def _run(
         jet_of_model(problem.model, is_long=is_long)  # compiled before the time is taken
     arguments = KernelArguments(
         problem,
-        motion_of(problem, is_long=is_long and not is_series, tells_end=not isinstance(method.tableau, Partitioned)),
+        motion_of(problem, is_long=is_long and not is_series, finish=Finish.of(method)),
         _control(limit, method, steps, plan),
         watch_of(problem, cancelled, method.tableau),
         np.ascontiguousarray(times),  # a kernel is compiled anew for an array with strides

@@ -5,16 +5,25 @@ Source: Hairer, Wanner, Solving Ordinary Differential Equations II, 2nd ed., VII
 
 from __future__ import annotations
 
+import numpy as np
+
 from .compiler import callback, inline, subroutine
 from .motion import FINE, Floats, has_signs, holds
 from .pointer import call, doubles_at, prevent_vectorization
-from .projection import CLOSE, Ends, finish_step, take_state
+from .projection import CLOSE, Ends, finish_step, read_gaps, take_state
 from .system import (
+    COUNT,
     DEGREES,
+    HOLONOMIC,
     IS_UNDER_WAY,
+    LANDED,
+    LANDED_DATA,
+    PLACED,
+    PLACED_DATA,
     POWERED,
     PROJECTED,
     PROJECTED_DATA,
+    SIGNS,
     SOLVED,
     SOLVED_DATA,
     TELLS_END,
@@ -24,6 +33,9 @@ from .system import (
 )
 
 MOST_CORRECTIONS, SURE = 8, 2  # Newton's corrections; behind so many, one that is small in itself is the last
+# Of a scaled pivot of AM⁻¹Aᵀ, and of the square of a row of A, of the largest: with less, rounding may count in rates.
+INDEPENDENT, SMALL_ROW = 1e-6, 1e-4
+CLOSER = 2.3e-11  # ε^⅔: a second correction by the same A that is this small leaves its power 3/2
 
 
 @inline
@@ -64,10 +76,110 @@ def project_solved(system: System, h: float, rates: Floats) -> bool:
 
 
 @inline
-def finish_solved(system: System, t: float, h: float, ends: Ends) -> bool:
-    """The new state of a step projected, and its derivative if asked for; False if this is left to be done by numbers.
+def take_placed(system: System, part: float, h: float, rates: Floats) -> tuple[bool, bool]:
+    """Takes from q in `inputs` what it is off by: whether that was no more than a `part`, in the measures as above.
 
-    That is so, too, where constraints may have lost their independence on the way.
+    `rates` are d/dt of (q, q̇) nearby, shape (≥ 2n,).
+    """
+    is_close, is_small = True, True
+    for i in range(system.head[DEGREES]):
+        change = system.placed[i]
+        value = system.inputs[i] - change
+        system.inputs[i] = value
+        size, change = abs(value), abs(change)
+        if not change <= part * max(size, abs(h * rates[i])):
+            is_close = False
+            if not change <= part * max(1.0, size):
+                is_small = False
+    return is_close, is_small
+
+
+@inline
+def place_again(system: System) -> None:
+    """What q in `inputs` is off by now, by A and M of the correction before."""
+    n, holonomic = system.head[DEGREES], system.head[HOLONOMIC]
+    read_gaps(system)
+    for i in range(n):
+        change = 0.0
+        for k in range(holonomic):
+            change += system.gaps[k] * system.placed[n + k * n + i]
+        system.placed[i] = change
+
+
+@inline
+def place_solved(system: System, h: float, rates: Floats) -> bool:
+    """Moves q in `inputs` onto g = 0, in the metric of M; whether that was possible.
+
+    `rates` are d/dt of (q, q̇) nearby, shape (≥ 2n,). Numbers that are not finite never get close.
+    """
+    for tries in range(MOST_CORRECTIONS):
+        call(system.head[PLACED], system.head[PLACED_DATA], system.placed, system.inputs)
+        is_close, is_small = take_placed(system, CLOSE, h, rates)
+        if is_close or (tries >= SURE and is_small):
+            return True
+        place_again(system)
+        is_close, is_small = take_placed(system, CLOSER, h, rates)
+        if is_close or (tries >= SURE and is_small):
+            return True
+    return False
+
+
+@inline
+def is_sure(system: System) -> bool:
+    """Whether A is far from losing a row: none is much smaller than it was, nor depends on the others.
+
+    Where one does, as next to a fork, what rounding leaves in q is magnified twice in the rates.
+    """
+    sure = system.signs[2] > INDEPENDENT
+    for k in range(system.head[COUNT]):
+        square, largest = system.squares[k], system.sizes[k]
+        if square > largest:
+            system.sizes[k] = square
+        elif not square > SMALL_ROW * largest:
+            sure = False
+    return bool(sure)
+
+
+@inline
+def land_solved(system: System, h: float, rates: Floats) -> bool:
+    """Moves q in `inputs` onto g = 0 and q̇ onto w = 0, q̈ with that stands in `projected`; whether that was possible.
+
+    It is not where A may lose a row. `rates` are d/dt of (q, q̇) nearby, shape (≥ 2n,).
+    """
+    if system.head[PLACED] != 0 and not place_solved(system, h, rates):
+        return False
+    call(system.head[LANDED], system.head[LANDED_DATA], system.projected, system.inputs)
+    if not (has_signs(system.signs, 1) and system.signs[0] > 0.0 and is_sure(system)):
+        return False
+    n, total = system.head[DEGREES], 0.0
+    for i in range(n):
+        system.inputs[n + i] -= system.projected[i]
+        total += abs(system.inputs[n + i]) + abs(system.projected[n + i])
+    return bool(total < np.inf)
+
+
+@inline
+def finish_landed(system: System, t: float, h: float, ends: Ends) -> bool:
+    """The new state of a step projected, and its derivative, by one A and M; False if this is not sure enough."""
+    _, new, rates, derivative = ends
+    n = system.head[DEGREES]
+    take_state(system, t + h, new)
+    if not land_solved(system, h, rates):
+        return False
+    for d in range(n):
+        new[d] = system.inputs[d]
+        new[n + d] = derivative[d] = system.inputs[n + d]
+        derivative[n + d] = system.projected[n + d]
+    if system.head[POWERED]:
+        derivative[2 * n] = system.signs[1 + SIGNS]
+    return True
+
+
+@inline
+def finish_projected(system: System, t: float, h: float, ends: Ends) -> bool:
+    """The same with corrections until nothing changes, each by its own A and M, and the derivative if asked for.
+
+    Of one more stage than a single one it is the lesser part, which is worth no code of its own.
     """
     _, new, rates, derivative = ends
     n, rows = system.head[DEGREES], place_of_rows(system)
@@ -86,6 +198,18 @@ def finish_solved(system: System, t: float, h: float, ends: Ends) -> bool:
         derivative[d], derivative[n + d] = new[n + d], system.outputs[force + d]
     if tells_end and system.head[POWERED]:
         derivative[2 * n] = system.outputs[force + n]
+    return True
+
+
+@inline
+def finish_solved(system: System, t: float, h: float, ends: Ends) -> bool:
+    """The new state of a step projected, and its derivative if asked for; False if this is left to be done by numbers.
+
+    That is so, too, where constraints may have lost their independence on the way.
+    """
+    lands = system.head[LANDED] != 0
+    if not (finish_landed(system, t, h, ends) if lands else finish_projected(system, t, h, ends)):
+        return False
     for i in range(system.before.size):
         system.before[i] = system.rows[i]
     return True

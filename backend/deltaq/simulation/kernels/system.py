@@ -15,7 +15,8 @@ from .pointer import doubles_at, integers_at
 # The integers that a block begins with.
 SIZE, DEGREES, COUNT, HOLONOMIC, POWERED, RANK, INPUTS, OUTPUTS, PHASE_OUTPUTS = 0, 1, 2, 3, 4, 5, 6, 7, 8
 MOTION, MOTION_DATA, GAPS, GAPS_DATA, PHASE, PHASE_DATA, LOCKS, IS_UNDER_WAY = 9, 10, 11, 12, 13, 14, 15, 16
-TELLS_END, SOLVED, SOLVED_DATA, PROJECTED, PROJECTED_DATA, HEAD = 17, 18, 19, 20, 21, 22
+TELLS_END, SOLVED, SOLVED_DATA, PROJECTED, PROJECTED_DATA = 17, 18, 19, 20, 21
+PLACED, PLACED_DATA, LANDED, LANDED_DATA, HEAD = 22, 23, 24, 25, 26
 SIGNS = 3  # that tell whether a solution in symbols holds
 
 
@@ -28,8 +29,9 @@ class System(NamedTuple):
     `scales`, shape (m,), and factored, `order` the order of its rows; `of_gaps` and `gap_order` the same of the
     holonomic ones. `multipliers`, shape (m,), are λ, `bends`, shape (n,), is q̈, `right`, shape (m,), a right side.
     `gaps`, shape (2 m,), are g and w; `before`, shape (m n,), is A where the step began, `minor`, shape (m m,), room
-    for a determinant. `projected`, shape (2n,), `rows`, shape (m n,), and `signs`, shape (1 + SIGNS,), are what
-    `Solved.projected` says. `conditioning`, shape (1,), keeps the smallest pivot met, relative to its diagonal entry.
+    for a determinant. `projected`, shape (2n,), `rows`, shape (m n,), `signs`, shape (2 + SIGNS,), and `squares`,
+    shape (m,), are what `Solved.projected`, `placed` or `landed` says; `sizes`, shape (m,), keeps the largest squares.
+    `conditioning`, shape (1,), keeps the smallest pivot met, relative to its diagonal entry.
     """
 
     head: Indices
@@ -51,6 +53,9 @@ class System(NamedTuple):
     projected: Floats
     rows: Floats
     signs: Floats
+    squares: Floats
+    sizes: Floats
+    placed: Floats
     conditioning: Floats
 
 
@@ -76,7 +81,10 @@ def block_at(data: int) -> System:
     projected = bends + 8 * n
     rows = projected + 16 * n
     signs = rows + 8 * m * n
-    conditioning = signs + 8 * (1 + SIGNS)
+    squares = signs + 8 * (2 + SIGNS)
+    sizes = squares + 8 * m
+    placed = sizes + 8 * m
+    conditioning = placed + 8 * (n + m * n)
     return System(
         head,
         order,
@@ -96,14 +104,17 @@ def block_at(data: int) -> System:
         doubles_at(minor, m * m),
         doubles_at(projected, 2 * n),
         doubles_at(rows, m * n),
-        doubles_at(signs, 1 + SIGNS),
+        doubles_at(signs, 2 + SIGNS),
+        doubles_at(squares, m),
+        doubles_at(sizes, m),
+        doubles_at(placed, n + m * n),
         doubles_at(conditioning, 1),
     )
 
 
 def block_size(n: int, m: int, inputs: int, outputs: int, phase: int) -> int:
     """How many numbers a block takes."""
-    return HEAD + 2 * m + inputs + outputs + phase + 3 * m * n + 3 * m * m + 5 * m + 3 * n + SIGNS + 2
+    return HEAD + 2 * m + inputs + outputs + phase + 4 * m * n + 3 * m * m + 7 * m + 4 * n + SIGNS + 3
 
 
 @inline
