@@ -80,6 +80,22 @@ def test_bounds_are_tight(expression: Expr, low: float, high: float, expected: t
     assert (below[0], above[0]) == pytest.approx(expected, rel=1e-14)
 
 
+@pytest.mark.parametrize(
+    ("outputs", "is_used"),
+    [
+        pytest.param([X, se.sin(X) + 1], False, id="not at all"),
+        pytest.param([Y], True, id="as it is"),
+        pytest.param([X + 2 * Y], True, id="in a sum"),
+        pytest.param([se.sin(Y)], True, id="in a function"),
+        pytest.param([X, FUNCTIONS["sign"](Y)], True, id="in a condition"),
+        pytest.param([se.Piecewise((X, X > 0), (Y, True))], True, id="in the other case"),
+        pytest.param([X + Y - Y], False, id="where it cancels"),
+    ],
+)
+def test_a_tape_knows_which_inputs_matter(outputs: list[Expr], is_used: bool) -> None:
+    assert tape_of([X, Y], outputs).uses(1) == is_used
+
+
 def test_equal_parts_stand_once() -> None:
     tape = tape_of([X, Y], [se.sin(X + Y), se.sin(X + Y) * se.cos(X + Y)])
     assert len(tape.codes) == 2 + 4  # the inputs; the sum, its sine and cosine, their product

@@ -207,6 +207,15 @@ def test_a_free_mass_under_a_fast_drive_is_no_alarm() -> None:
     assert (found.outcome.status, found.estimate is not None and found.estimate.worst < 1e-6) == ("ok", True)
 
 
+@pytest.mark.parametrize("force", ["-k*x^3", "F*sin(x) - 0.1*x*dot(x)", "-m*abs(x)"])
+def test_forces_without_time_bound_steps_as_those_that_hardly_know_it(force: str) -> None:
+    alone, driven_too = [
+        Audit(problem_of(driven(each, m=1.0, k=2.0, F=3.0), 7.0), get_method("taylor")).before(1e-6)
+        for each in (force, f"{force} + 1e-30*sin(t)")
+    ]
+    assert alone == driven_too
+
+
 @pytest.mark.parametrize("name", scene_ids())
 def test_scenes_of_the_library_need_no_second_look(name: str) -> None:
     """Nothing in them is so sudden that a run has to be made again."""

@@ -71,6 +71,11 @@ class Tape:
         """Whether any value jumps or bends where a condition changes."""
         return bool((self.codes == CHOICE).any())
 
+    def uses(self, number: int) -> bool:
+        """Whether any value is made of the input of this number, which must not be 0, as unused operands are."""
+        made = ~np.isin(self.codes, (INPUT, CONSTANT))  # inputs come first, each at the place of its number
+        return any(bool((each == number).any()) for each in (self.a[made], self.b[made], self.c[made], self.outputs))
+
 
 def tape_of(inputs: Sequence[Expr], outputs: Sequence[Expr]) -> Tape:
     """The tape of some expressions in the inputs; equal subexpressions stand on it once."""

@@ -92,8 +92,10 @@ class Audit:
 
     def before(self, tolerance: float) -> Pieces:
         """The span in pieces, each with the largest step that resolves how the forces depend on time alone."""
-        leaves = self._leaves(self.threshold(tolerance))
-        return Pieces.joined(self.problem.t_end, leaves)
+        end = self.problem.t_end
+        if not self._tape.uses(2 * self.problem.degrees):
+            return Pieces((end,), (end,))
+        return Pieces.joined(end, self._leaves(self.threshold(tolerance)))
 
     def guide_jump(self) -> GuideJump | None:
         """The first jump of a guide or of its rate: it takes an infinite force, which no equation here contains."""
@@ -134,6 +136,7 @@ class Audit:
         """Who looks at steps of motions of this model, up to so many at a time of each; one for each thread."""
         operations, n, ranges = self._tape.codes.size, self.problem.degrees, self._ranges_of()
         room = Room(
+            np.zeros((2 * n + 1, capacity)),
             Slopes(*_columns(operations), np.zeros(operations), np.zeros(operations, dtype=np.int64)),
             Boxes(
                 np.zeros((2 * n + 1, capacity)),
@@ -262,7 +265,7 @@ class Watcher:
         `parameters` has shape (motions, parameters).
         """
         audit, found = self.audit, np.zeros(len(parameters), dtype=np.int64)
-        seeds = audit.seeds(np.hstack([meshes.states[:, :, 0], meshes.times[:, :1], parameters]))
+        seeds = audit.seeds(np.hstack([meshes.rows[:, 0], parameters]))
         rules = Rules(audit.limit, audit.threshold(tolerance), 1.0)
         find_blind(audit.tape_arrays, self.ranges, meshes, parameters, seeds, rules, self.room, found)
         return found

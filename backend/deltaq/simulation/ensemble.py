@@ -119,9 +119,9 @@ class Sight:
         `parameters` has shape (motions, parameters). `integrate` returns whether there is more to come; it is looked
         at what has been gone in between.
         """
-        count, width = members.states.shape[0], 2 * self.audit.problem.degrees
-        meshes = Meshes(np.empty((count, MESH)), np.empty((count, width, MESH)), np.zeros(count, dtype=np.int64))
-        members = members._replace(mesh_times=meshes.times, mesh_states=meshes.states, mesh_counts=meshes.counts)
+        count, width = members.states.shape[0], 2 * self.audit.problem.degrees + 1
+        meshes = Meshes(np.empty((count, MESH, width)), np.zeros(count, dtype=np.int64))
+        members = members._replace(mesh_rows=meshes.rows, mesh_counts=meshes.counts)
         watcher, goes_on = self.audit.watcher(MESH), True
         while goes_on:
             goes_on = integrate(members)
@@ -197,7 +197,8 @@ def warm(problem: Problem) -> None:
     states, parameters = problem.state[None, : 2 * problem.degrees], np.array(problem.parameters)[None, :]
     run_ensemble(Ensemble(problem, states, parameters), 1e-6)
     # a motion that is seen through at once leaves the closer look to others
-    mesh = Meshes(np.array([[0.0, problem.t_end]]), np.stack([states, states], axis=2), np.array([2]))
+    rows = np.hstack([np.repeat(states, 2, axis=0), [[0.0], [problem.t_end]]])
+    mesh = Meshes(rows[None, :, :], np.array([2]))
     Audit(problem, get_method("taylor")).watcher(MESH).step_by_step(mesh, parameters, 1e-6)
 
 
@@ -222,6 +223,8 @@ def largest_step(ensemble: Ensemble) -> float:
     if model.events is not None or model.switches is not None or model.recurrences.conditions:
         return 0.0
     method, largest = get_method("taylor"), LARGEST * problem.t_end
+    if not model.tape.uses(2 * problem.degrees):
+        return largest
     for index in _extremes(np.hstack([ensemble.states, ensemble.parameters])):
         largest = min(largest, *Audit(ensemble.member(index), method).before(USUAL).largest)
         if largest * MOST_DRIVEN < problem.t_end:
@@ -372,8 +375,7 @@ def _begun(ensemble: Ensemble, times: Floats, width: int, near: int, *, is_nudge
         np.zeros(count, dtype=np.int64),
         np.zeros(count, dtype=np.int64),
         np.zeros(count),
-        np.empty((count, 0)),
-        np.empty((count, ensemble.states.shape[1], 0)),
+        np.empty((count, 0, ensemble.states.shape[1] + 1)),
         np.zeros(count, dtype=np.int64),
         np.zeros(count, dtype=np.int64),
     )

@@ -249,8 +249,8 @@ class March:
         order = np.argsort(~gone.taken, axis=0, kind="stable")  # the steps taken come first
         begins = np.vstack([self._records[0, m.RECORDED : m.RECORDED + n], gone.start[:1]])
         ends = gone.rows[order, -1, lanes]
-        path = np.concatenate([begins.T[:, :, None], ends.transpose(1, 2, 0)], axis=2)
-        meshes = Meshes(np.ascontiguousarray(path[:, n]), np.ascontiguousarray(path[:, :n]), gone.taken.sum(axis=0) + 1)
+        rows = np.concatenate([begins.T[:, None, :], ends.transpose(1, 0, 2)], axis=1)
+        meshes = Meshes(np.ascontiguousarray(rows), gone.taken.sum(axis=0) + 1)
         found, parameters = np.zeros_like(gone.taken), self._parameters[np.maximum(gone.which, 0)]
         found[order[0], lanes] = self._watcher.blind(meshes, parameters, lanes, SEEN)
         return found

@@ -48,9 +48,9 @@ class Members(NamedTuple):
     receives the states at `times`, shape (samples,); `outcomes`, `steps`, `filled` (how many samples) and the times
     `reached` have shape (motions,). Where errors are wanted, `nudges` are changes of (q, q̇, constants) by rounding,
     shape (motions, 2n + constants), and `errors`, shape (motions, samples, 2n), receives the largest error up to each
-    sample; else both are empty in their last axis. `mesh_times`, shape (motions, capacity), `mesh_states`
-    (motions, 2n, capacity) and `mesh_counts` (motions,) receive the ends of steps as `sight.Meshes`, with capacity 0 if
-    they are not wanted; `blind`, shape (motions,), is for what is made of that: 1 where a step was blind.
+    sample; else both are empty in their last axis. `mesh_rows`, shape (motions, capacity, 2n + 1), and `mesh_counts`,
+    shape (motions,), receive the ends of steps as `sight.Meshes`, with capacity 0 if they are not wanted; `blind`,
+    shape (motions,), is for what is made of that: 1 where a step was blind.
     """
 
     states: Floats
@@ -63,8 +63,7 @@ class Members(NamedTuple):
     steps: Integers
     filled: Integers
     reached: Floats
-    mesh_times: Floats
-    mesh_states: Floats
+    mesh_rows: Floats
     mesh_counts: Integers
     blind: Integers
 
@@ -208,12 +207,12 @@ def take_up(lanes: Lanes, members: Members, lane: int, member: int, near: float)
 @inline
 def record_end(lanes: Lanes, members: Members, lane: int, member: int) -> None:
     """Records where a lane is in the mesh of its motion, which has room for it."""
-    if members.mesh_times.shape[1] == 0:
+    if members.mesh_rows.shape[1] == 0:
         return
-    place = members.mesh_counts[member]
-    members.mesh_times[member, place] = lanes.now[lane]
-    for d in range(members.mesh_states.shape[1]):
-        members.mesh_states[member, d, place] = lanes.new[d, lane]
+    place, width = members.mesh_counts[member], members.mesh_rows.shape[2] - 1
+    for d in range(width):
+        members.mesh_rows[member, place, d] = lanes.new[d, lane]
+    members.mesh_rows[member, place, width] = lanes.now[lane]
     members.mesh_counts[member] = place + 1
 
 
@@ -419,7 +418,7 @@ def integrate_members(
     of one is full, all wait until it is called again with room in all meshes.
     """
     count, judged, end = members.states.shape[0], members.errors.shape[2], members.times[members.times.size - 1]
-    room, is_full = members.mesh_times.shape[1], False
+    room, is_full = members.mesh_rows.shape[1], False
     if lanes.turn[BUSY] < 0:
         begin_all(lanes, members, largest)
     while lanes.turn[BUSY] > 0 and not is_full:

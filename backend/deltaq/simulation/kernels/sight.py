@@ -32,23 +32,21 @@ Integers = NDArray[np.int64]
 
 
 class Meshes(NamedTuple):
-    """Where the steps of motions ended: (q, q̇) in `states`, shape (motions, 2n, capacity), at `times`.
+    """Where the steps of motions ended: (q, q̇, t) in `rows`, shape (motions, capacity, 2n + 1).
 
-    `times` has shape (motions, capacity); of each motion so many are filled as `counts`, shape (motions,), say.
+    Of each motion so many are filled as `counts`, shape (motions,), say.
     """
 
-    times: Floats
-    states: Floats
+    rows: Floats
     counts: Integers
 
     def chosen(self, which: Integers) -> Meshes:
         """Those of some motions."""
-        return Meshes(self.times[which], self.states[which], self.counts[which])
+        return Meshes(self.rows[which], self.counts[which])
 
     def go_on(self, which: Integers) -> None:
         """The last entry of some motions, none of them empty, becomes their first and only one."""
-        last = self.counts[which] - 1
-        self.times[which, 0], self.states[which, :, 0] = self.times[which, last], self.states[which, :, last]
+        self.rows[which, 0] = self.rows[which, self.counts[which] - 1]
         self.counts[which] = 1
 
 
@@ -84,11 +82,12 @@ class Slopes(NamedTuple):
 
 
 class Room(NamedTuple):
-    """What motions are looked at in: `path` and `boxes` have the capacity of the meshes.
+    """What motions are looked at in: `path`, `columns` and `boxes` have the capacity of the meshes.
 
-    `spare` has shape (2, 2n + 1).
+    `columns`, shape (2n + 1, capacity), are the rows of one, and `spare` has shape (2, 2n + 1).
     """
 
+    columns: Floats
     slopes: Slopes
     boxes: Boxes
     workspace: AuditWorkspace
@@ -141,18 +140,27 @@ def find_jumps(times: Floats, q: Floats, v: Floats, count: int, boxes: Boxes) ->
 
 
 @inline
-def bound_steps(times: Floats, states: Floats, count: int, boxes: Boxes) -> None:
+def turn_to_columns(rows: Floats, count: int, columns: Floats) -> None:
+    """The first rows, shape (capacity, 2n + 1), as `columns`."""
+    for d in range(columns.shape[0]):
+        column = columns[d]
+        for k in range(count):
+            column[k] = rows[k, d]
+
+
+@inline
+def bound_steps(columns: Floats, count: int, boxes: Boxes) -> None:
     """The boxes of all steps of a mesh, as those of `box_of_part`.
 
-    Of `times`, shape (capacity,), and `states`, shape (2n, capacity), so many entries count. Loops go along the mesh,
-    so that processors take several steps at once.
+    Of `columns`, shape (2n + 1, capacity), so many entries count. Loops go along the mesh, so that processors take
+    several steps at once.
     """
-    n, sizes, jumps = states.shape[0] // 2, boxes.sizes, boxes.jumps
-    since, until = boxes.low[2 * n], boxes.high[2 * n]
+    n, sizes, jumps = columns.shape[0] // 2, boxes.sizes, boxes.jumps
+    times, since, until = columns[2 * n], boxes.low[2 * n], boxes.high[2 * n]
     for k in range(count - 1):
         since[k], until[k], sizes[k] = times[k], times[k + 1], times[k + 1] - times[k]
     for d in range(n):
-        q, v = states[d], states[n + d]
+        q, v = columns[d], columns[n + d]
         find_jumps(times, q, v, count, boxes)
         low, high, slowest, fastest = boxes.low[d], boxes.high[d], boxes.low[n + d], boxes.high[n + d]
         for k in range(count - 1):
@@ -248,17 +256,18 @@ def bound_parameters(parameters: Floats, ranges: Ranges, first: int) -> None:
 @inline
 def path_of(meshes: Meshes, motion: int, room: Room) -> Path:
     """The mesh of a motion as a path, in the first part of the room's."""
-    count, n, whole = meshes.counts[motion], meshes.states.shape[1] // 2, room.path
+    count, columns, whole = meshes.counts[motion], room.columns, room.path
+    n, times = columns.shape[0] // 2, columns[columns.shape[0] - 1]
     path = Path(whole.times[:count], whole.q[:count], whole.v[:count], whole.jumps[:count])
-    times, states = meshes.times[motion], meshes.states[motion]
+    turn_to_columns(meshes.rows[motion], count, columns)
     for k in range(count):
         path.times[k] = times[k]
     for k in range(count - 1):
         room.boxes.sizes[k] = times[k + 1] - times[k]
     for d in range(n):
-        find_jumps(times, states[d], states[n + d], count, room.boxes)
+        find_jumps(times, columns[d], columns[n + d], count, room.boxes)
         for k in range(count):
-            path.q[k, d], path.v[k, d], path.jumps[k, d] = states[d, k], states[n + d, k], room.boxes.jumps[k]
+            path.q[k, d], path.v[k, d], path.jumps[k, d] = columns[d, k], columns[n + d, k], room.boxes.jumps[k]
     return path
 
 
@@ -279,13 +288,13 @@ def find_unsure(
     the `limit` in a part of a step that is seen through.
     """
     choose(tape, room.slopes)
-    width = meshes.states.shape[1]
     for k in range(which.size):
         motion, found[k] = which[k], 0
         count = meshes.counts[motion]
         if count > 1:
-            bound_parameters(parameters[motion], ranges, width + 1)
-            bound_steps(meshes.times[motion], meshes.states[motion], count, room.boxes)
+            bound_parameters(parameters[motion], ranges, meshes.rows.shape[2])
+            turn_to_columns(meshes.rows[motion], count, room.columns)
+            bound_steps(room.columns, count, room.boxes)
             is_seen = sees_all(tape, ranges, count - 1, room.slopes, HALVES * limit, room.boxes)
             found[k] = 0 if is_seen else 1
 
@@ -309,7 +318,7 @@ def find_blind(
         found[motion] = 0
         if meshes.counts[motion] > 1:
             path = path_of(meshes, motion, room)
-            bound_parameters(parameters[motion], ranges, meshes.states.shape[1] + 1)
+            bound_parameters(parameters[motion], ranges, meshes.rows.shape[2])
             room.workspace.looked[0], room.blind.found[0] = 0, 0
             inspect(tape, ranges, path, seeds[motion : motion + 1], rules, room.workspace, room.spare, room.blind)
             found[motion] = 1 if room.blind.found[0] > 0 else 0
