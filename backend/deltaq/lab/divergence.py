@@ -14,21 +14,24 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from ..mechanics.library import load_scene
+from ..simulation.audit import Audit
 from ..simulation.derivatives import accelerations, derivatives
 from ..simulation.integration import explicit_weights, motion_of
 from ..simulation.kernels.motion import FINE, STEP_LIMIT
-from ..simulation.kernels.plan import make_plan
 from ..simulation.kernels.step import make_workspace
 from ..simulation.kernels.step_control import Control
-from ..simulation.kernels.tangent import Pair, Progress, Trace, begin_pair, follow_stretches
+from ..simulation.kernels.tangent import Pair, Progress, Trace
 from ..simulation.library import get_method
+from ..simulation.march import SEEN
 from ..simulation.method import Tableau
 from ..simulation.outcome import OUT_OF_REACH, outcome_of
 from ..simulation.problem import Floats, Problem
-from ..simulation.run import Run, Steps, run
+from ..simulation.run import Run, Steps
 from ..simulation.service import problem_of
 from ..simulation.stability import real_stability
 from ..simulation.stiffness import drive, spectrum
+from ..simulation.watched import seen
+from .deviation import Deviation, make_record
 
 METHOD, TOLERANCE = "dop853", 1e-12
 LOCAL_TOLERANCE, FINEST = 1e-11, 1e-4  # of the motion that is followed, down to that part of it for small motions
@@ -37,6 +40,7 @@ PART = 800  # stretches that are followed at a time
 STEP_BUDGET = 600_000  # steps of a motion with two degrees of freedom: some two seconds
 PILOT_PERIODS, PILOT_SAMPLES = 40, 1601
 PER_DRIVE = 6  # steps in a period of what drives the scene
+ROUNDS = 40  # of a run, each by shorter steps where the one before was blind
 SHOWS = 1e-9  # of the largest; what moves less is at rest
 
 
@@ -94,9 +98,10 @@ def moved(problem: Problem, state: Floats) -> Problem:
 
 
 def solved(problem: Problem, times: Floats, tolerance: float = TOLERANCE) -> Run:
-    """One accurate run with samples at `times`, shape (samples,), in seconds."""
-    steps = Steps(max(problem.t_end / 10, 1e-12), tolerance)
-    return run(problem, get_method(METHOD), times, np.zeros(1, dtype=np.int64), steps)
+    """One accurate run with samples at `times`, shape (samples,), in seconds, up to where it may miss a force."""
+    steps, flag = Steps(max(problem.t_end / 10, 1e-12), tolerance), np.zeros(1, dtype=np.int64)
+    found, blind = seen(problem, get_method(METHOD), times, steps, max(tolerance, SEEN), flag, ROUNDS)
+    return found.before(min(each.start for each in blind)) if blind else found
 
 
 def twins(problem: Problem, apart: float, samples: int) -> tuple[Floats, Floats]:
@@ -136,24 +141,28 @@ def _scales(values: Floats, rates: Floats, frequency: float) -> Floats:
 
 def followed(problem: Problem, rhythm: Rhythm, periods: int = PERIODS) -> Iterator[Followed]:
     """The motion while it is followed, over so many periods; ends early where the motion does or costs too much."""
-    count, n, stretch = IN_PERIOD * periods, problem.degrees, rhythm.stretch
-    trace, pair = Trace(np.zeros((count, 2 * n)), np.zeros(count)), _pair(problem, rhythm)
-    progress, turning = Progress(np.zeros(2), np.zeros(1)), np.zeros(n, dtype=bool)
-    outcome, done = begin_pair(pair, progress, _direction(2 * n)), 0
+    count, n = IN_PERIOD * periods, problem.degrees
+    deviation = _deviation(problem, rhythm, count)
+    trace, turning = deviation.trace, np.zeros(n, dtype=bool)
+    outcome, done, asked = deviation.begin(), 0, PART
     while outcome == FINE and done < count:
-        trace.growths[done : done + PART] = np.nan
-        outcome = follow_stretches(pair, progress, 0.0, stretch, done, min(PART, count - done), trace)
-        begun, done = done, done + int(np.isfinite(trace.growths[done : done + PART]).sum())
+        begun = done
+        while outcome == FINE and done < min(begun + PART, count):
+            wanted = min(asked, begun + PART - done, count - done)
+            outcome, reached = deviation.advance(done, wanted)
+            asked, done = (1 if reached < done + wanted else 2 * wanted), reached
         turning |= _turning(problem, trace.states[begun:done])
-        _unwind(pair, turning)
+        _unwind(deviation.pair, turning)
         if done < count and outcome == FINE:
             yield Followed(rhythm, trace.states[:done], trace.growths[:done], "ok", is_whole=False)
     status = outcome_of(outcome, {}).status if outcome not in (FINE, STEP_LIMIT, OUT_OF_REACH) else "ok"
     yield Followed(rhythm, trace.states[:done], trace.growths[:done], status, is_whole=True)
 
 
-def _pair(problem: Problem, rhythm: Rhythm) -> Pair:
-    scheme, state = get_method(METHOD).tableau, problem.state
+def _deviation(problem: Problem, rhythm: Rhythm, count: int) -> Deviation:
+    """A deviation at the start, with room for so many stretches."""
+    method, state = get_method(METHOD), problem.state
+    scheme = method.tableau
     if not isinstance(scheme, Tableau):
         raise TypeError("the tangent dynamics steps by an explicit Runge–Kutta method")
     driven = drive(problem, state)
@@ -161,16 +170,14 @@ def _pair(problem: Problem, rhythm: Rhythm) -> Pair:
     largest = min(largest, math.tau / driven / PER_DRIVE) if driven else largest
     tolerance = LOCAL_TOLERANCE * float(np.clip(rhythm.scales.max(), FINEST, 1.0))
     limit = max(STEP_BUDGET * 2 // max(problem.degrees, 2), PART)
-    plan = make_plan(np.array([np.inf]), np.array([largest]), 2 * problem.degrees)
+    plan = make_record(largest, 2 * problem.degrees)
     control = Control(tolerance, largest, 8.0, 0.0, limit, scheme.stages, real_stability(scheme), plan)
     weights = explicit_weights(scheme)
     workspaces = make_workspace(state.copy(), weights), make_workspace(state.copy(), weights)
-    return Pair(motion_of(problem), weights, control, *workspaces, rhythm.scales)
-
-
-def _direction(width: int) -> Floats:
-    random = np.random.default_rng(0).normal(size=width)
-    return np.asarray(random / np.linalg.norm(random))
+    pair = Pair(motion_of(problem), weights, control, *workspaces, rhythm.scales)
+    trace = Trace(np.zeros((count, 2 * problem.degrees)), np.zeros(count))
+    audit = Audit(replace(problem, t_end=PART * rhythm.stretch), method)
+    return Deviation(pair, Progress(np.zeros(2), np.zeros(1)), trace, audit, rhythm.stretch)
 
 
 def _turning(problem: Problem, states: Floats) -> np.ndarray:

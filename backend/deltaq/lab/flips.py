@@ -15,11 +15,13 @@ import numpy as np
 from ..simulation.integration import Flag
 from ..simulation.library import get_method
 from ..simulation.problem import Floats, Problem
-from ..simulation.run import Steps, run
+from ..simulation.run import Steps
+from ..simulation.watched import seen
 from .engine import engine, while_wanted
 
 METHOD, TOLERANCE, PER_SECOND = "dormand-prince-54", 1e-6, 25
 COARSEST = 4
+ROUNDS = 12  # of a motion, each by shorter steps where the one before was blind
 CHUNK = 64  # points that are worked out at a time
 
 Place = tuple[int, int]
@@ -70,7 +72,10 @@ def first_flip(problem: Problem, cancelled: Flag) -> float:
     """The first time at which an angle that began between −π and π lies outside; infinite if none does in time."""
     samples = max(2, round(PER_SECOND * problem.t_end) + 1)
     times = np.linspace(0.0, problem.t_end, samples)
-    found = run(problem, get_method(METHOD), times, cancelled, Steps(problem.t_end / 10, TOLERANCE))
+    steps = Steps(problem.t_end / 10, TOLERANCE)
+    found, blind = seen(problem, get_method(METHOD), times, steps, TOLERANCE, cancelled, ROUNDS)
+    if blind:
+        return math.nan
     angles = [place for place, is_angle in enumerate(problem.angular) if is_angle]
     over = np.abs(found.states[:, angles]) > math.pi
     if not over.any():

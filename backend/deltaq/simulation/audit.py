@@ -133,7 +133,12 @@ class Audit:
         return tuple(found)
 
     def watcher(self, capacity: int) -> Watcher:
-        """Who looks at steps of motions of this model, up to so many at a time of each; one for each thread."""
+        """Who looks at steps of motions of this model, up to so many at a time of each; one for each thread.
+
+        No more than the GROUP over which what forces do to q̈ is taken from where a motion begins.
+        """
+        if capacity > GROUP + 1:
+            raise ValueError(f"a watcher looks at {GROUP} steps of a motion at most")
         operations, n, ranges = self._tape.codes.size, self.problem.degrees, self._ranges_of()
         room = Room(
             np.zeros((2 * n + 1, capacity)),

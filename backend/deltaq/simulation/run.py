@@ -101,6 +101,12 @@ class Run:
         """Whether it came to the end, to an event, or to where friction holds it."""
         return bool(self.result.outcome in (FINE, EVENT, HELD))
 
+    def before(self, time: float) -> Run:
+        """The same with the samples before a time, the first one in any case."""
+        count = max(int(np.searchsorted(self.times, time)), 1)
+        reactions = self.reactions and self.reactions.first(count)
+        return replace(self, times=self.times[:count], states=self.states[:count], reactions=reactions)
+
 
 @dataclass(frozen=True)
 class Steps:

@@ -14,6 +14,7 @@ import numpy as np
 
 from .compiler import inline, kernel
 from .motion import FINE, NOT_FINITE, STEP_LIMIT, STEP_UNDERFLOW, Floats, Motion, rhs
+from .plan import Plan, comes_to, record
 from .step import Weights, Workspace, accept, attempt
 from .step_control import (
     LARGEST_GROWTH,
@@ -110,12 +111,21 @@ def deviation_size(pair: Pair) -> float:
 
 
 @inline
+def bounded(plan: Plan, t: float, wanted: float) -> float:
+    """The step wanted, no longer than the plan allows at t, and not beyond the end of that piece."""
+    piece = 0
+    while comes_to(plan.ends[piece], t):
+        piece += 1
+    return float(min(wanted, plan.sizes[piece], plan.ends[piece] - t))
+
+
+@inline
 def step_both(pair: Pair, progress: Progress, left: float) -> int:
-    """One accepted step of at most `left` seconds for both motions; the clock says when it ended."""
+    """One accepted step of at most `left` seconds for both motions; the clock says when it ended, the plan keeps it."""
     control, workspace, clock, end = pair.control, pair.workspace, progress.clock, pair.weights.b.size
     outcome, growth = FINE, LARGEST_GROWTH
     while outcome == FINE:
-        h = min(clock[1], left)
+        h = bounded(control.plan, clock[0], min(clock[1], left))
         outcome = attempt(pair.motion, pair.weights, clock[0], h, pair.weights.reads_end, workspace)
         error = error_norm(pair.weights.error, control.tolerance, h, pair.motion.degrees, workspace)
         if outcome == FINE and error <= 1.0:
@@ -125,6 +135,7 @@ def step_both(pair: Pair, progress: Progress, left: float) -> int:
             proposed = controlled_step(control, h, log_error(error), log_error(1e-4), growth)
             clock[1] = proposed if h == clock[1] else max(clock[1], proposed)
             clock[0] += h
+            record(control.plan, clock[0], workspace.old)
             return outcome
         smaller, growth = reduced_step(control, h, error if outcome == FINE else np.nan), 1.0
         if not is_resolvable(control, clock[0], smaller):
