@@ -26,6 +26,7 @@ NEAR, APART = 0.02, 0.3  # of what the motions cover; of the way to the next att
 ALIKE = 1e-4  # of what the motions cover: attractors that are closer are one
 SETTLED = 0.02  # of what the motions cover: change after a period
 NEWTON, SOLVED = 8, 1e-9
+NEIGHBOUR = 0.01  # of the largest component: how far away states are that come to the same
 BELOW = 1e-6  # 1 less a multiplier that contracts
 MOST, MOST_WITHOUT = 16, 12  # attractors; motions near which no closed orbit is found, in vain
 IN_VAIN = 24  # looks one after the other that find none, until the motions go on: slow ones seem to settle anywhere
@@ -106,7 +107,8 @@ class Stroboscope:
         n, span = self.problem.degrees, periods * self.period
         values, rates = tuple(map(float, state[:n])), tuple(map(float, state[n:]))
         problem = replace(self.problem, values=values, rates=rates, t_end=span)
-        return propagated(problem, 2 * periods + 1, (), np.full(2 * n, float(np.abs(state).max()) or 1.0))
+        near = NEIGHBOUR * (float(np.abs(state).max()) or 1.0)
+        return propagated(problem, 2 * periods + 1, (), np.full(2 * n, near))
 
 
 @dataclass(frozen=True)
