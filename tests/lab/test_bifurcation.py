@@ -393,14 +393,16 @@ def test_what_has_no_diagram_is_told_with_what_to_do(fields: dict[str, Any], cod
     assert [(one.code, one.pointer) for one in caught.value.problems] == [(code, pointer)]
 
 
-def test_a_hill_that_is_thinner_than_a_step_is_seen() -> None:
+@pytest.mark.parametrize("stiffer", [0.0, 0.5])
+def test_a_hill_that_is_thinner_than_a_step_is_seen(stiffer: float) -> None:
     """A driven oscillator with a hill of width 0.005 on its way: what is told to repeat does so by SciPy's small steps.
 
-    Without the hill, the motions are others by some thousandths.
+    Without the hill, the motions are others by some thousandths. A spring stiffer on one side has a kink.
     """
     width, drive, drag, omega = 5e-3, 1.0, 0.8, 1.3
-    hill = "k*x^2/2 + h*exp(-((x - x0)/w)^2)"
-    scene = line(hill, "F*cos(omega*t)", DRAG, k=1.0, c=drag, F=drive, omega=omega, w=width, x0=0.3, h=0.3)
+    hill = "k*x^2/2 + h*exp(-((x - x0)/w)^2)" + (" + s*max(x, 0)^2/2" if stiffer else "")
+    values = {"k": 1.0, "c": drag, "F": drive, "omega": omega, "w": width, "x0": 0.3, "h": 0.3}
+    scene = line(hill, "F*cos(omega*t)", DRAG, **values, **({"s": stiffer} if stiffer else {}))
     found = ask(scene=scene, sweep=swept("F", 0.95, 1.05), skip=10, crossings=4)
     told = [one for one in found["up"] if one["folds"] == 1]
     assert len(told) >= 4
@@ -409,7 +411,8 @@ def test_a_hill_that_is_thinner_than_a_step_is_seen() -> None:
         def rates(t: float, y: np.ndarray, force: float = one["value"]) -> list[float]:
             near = (y[0] - 0.3) / width
             push = 0.6 / width * near * math.exp(-(near**2))
-            return [y[1], force * math.cos(omega * t) - y[0] - drag * y[1] + push]
+            spring = y[0] + stiffer * max(y[0], 0.0)
+            return [y[1], force * math.cos(omega * t) - spring - drag * y[1] + push]
 
         begin = [one["initial"]["x"]["value"], one["initial"]["x"]["rate"]]
         span = (0.0, math.tau / omega)

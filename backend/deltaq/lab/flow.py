@@ -120,8 +120,7 @@ class Flow:
         ensemble, steps = Ensemble(self.problem, states, parameters), Steps(self.largest, tolerance)
         taylor = get_method("taylor")
         audit = Audit(replace(self.problem, t_end=float(times[-1])), taylor)
-        sight = None if self.problem.model.recurrences.conditions else Sight(audit, SEEN)
-        members = in_lanes(ensemble, times, steps, self.cancelled, sight=sight)
+        members = in_lanes(ensemble, times, steps, self.cancelled, sight=Sight(audit, SEEN))
         found = Traced(members.samples[:, :, : 2 * self.problem.degrees], members.outcomes, members.steps)
         for place in np.flatnonzero(members.blind).tolist():
             again = watched(ensemble.member(place), taylor, times, steps, SEEN, PARTS * self.largest, self.cancelled)
