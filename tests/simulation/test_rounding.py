@@ -5,28 +5,34 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from deltaq.simulation.rounding import rounded, rounded_to_bits, short, significant
+from deltaq.simulation.rounding import rounded, rounded_alone, rounded_to_bits, short, significant
+
+VALUES = [
+    pytest.param(1.23456789012, 1e-3, 1.234568, id="three guard digits"),
+    pytest.param(1.23456789012, 3e-9, 1.23456789012, id="fine error"),
+    pytest.param(123456.789, 50.0, 123456.79, id="large numbers keep decimals while in doubt"),
+    pytest.param(123456.789, 1e9, 123457.0, id="never coarser than one"),
+    pytest.param(2.0**51 + 0.5, 1e9, 2.0**51, id="the last numbers with a half, to even"),
+    pytest.param(2.0**52 + 1.0, 1e9, 2.0**52 + 1.0, id="the first without decimals"),
+    pytest.param(1 / 3, 0.0, 0.333333333333333, id="no error: fifteen decimals"),
+    pytest.param(1e-6 / 3, 1e-21, 3.33333333333333e-7, id="small: fifteen behind the zeros"),
+    pytest.param(1e-9 / 3, 1e-25, 1e-9 / 3, id="smaller than powers of ten reach"),
+    pytest.param(-1e-9, 1e-3, 0.0, id="no negative zero"),
+]
 
 
-@pytest.mark.parametrize(
-    ("value", "error", "expected"),
-    [
-        pytest.param(1.23456789012, 1e-3, 1.234568, id="three guard digits"),
-        pytest.param(1.23456789012, 3e-9, 1.23456789012, id="fine error"),
-        pytest.param(123456.789, 50.0, 123456.79, id="large numbers keep decimals while in doubt"),
-        pytest.param(123456.789, 1e9, 123457.0, id="never coarser than one"),
-        pytest.param(2.0**51 + 0.5, 1e9, 2.0**51, id="the last numbers with a half, to even"),
-        pytest.param(2.0**52 + 1.0, 1e9, 2.0**52 + 1.0, id="the first without decimals"),
-        pytest.param(1 / 3, 0.0, 0.333333333333333, id="no error: fifteen decimals"),
-        pytest.param(1e-6 / 3, 1e-21, 3.33333333333333e-7, id="small: fifteen behind the zeros"),
-        pytest.param(1e-9 / 3, 1e-25, 1e-9 / 3, id="smaller than powers of ten reach"),
-        pytest.param(-1e-9, 1e-3, 0.0, id="no negative zero"),
-    ],
-)
+@pytest.mark.parametrize(("value", "error", "expected"), VALUES)
 def test_value(value: float, error: float, expected: float) -> None:
     found = rounded(np.array([value]), np.array([error]))
     assert found.tolist() == [expected]
     assert not np.signbit(found[0]) or expected < 0
+
+
+def test_numbers_that_are_not_measured_by_one_another() -> None:
+    """Each as if it stood alone, whatever stands beside it."""
+    values, errors, expected = (np.array(column) for column in zip(*(case.values for case in VALUES), strict=True))
+    assert rounded_alone(values, errors).tolist() == expected.tolist()
+    assert rounded_alone(values[:0], errors[:0]).tolist() == []
 
 
 @pytest.mark.parametrize(

@@ -21,7 +21,7 @@ from .friction import FrictionForce
 from .outcome import Outcome
 from .problem import Floats, Moved, Problem
 from .request import Request
-from .rounding import rounded, short, significant
+from .rounding import rounded_alone, short, significant
 from .trajectory import MOST_TOLD, Trajectory
 from .transitions import Transition
 
@@ -60,7 +60,7 @@ def answer(
         "reason": _told(trajectory.outcome),
         "remedy": _told(trajectory.outcome),
         "event": _event(request, trajectory),
-        "events": [_transition(each) for each in trajectory.transitions[:MOST_TOLD]],
+        "events": _transitions(trajectory.transitions[:MOST_TOLD]),
         "method": choice.method.id,
         "choice": {"code": choice.reason, "parameters": {}} if choice.reason else None,
         "columns": request.columns,
@@ -118,20 +118,24 @@ def _event(request: Request, trajectory: Trajectory) -> Document | None:
     if found is None:
         return None
     event = request.scene.events[found.index]
-    time, error = _time(found.time, found.error)
+    ((time, error),) = _times([found.time], [found.error])
     return {"name": event.name, "title": plainly(event.title), "t": time, "error": error}
 
 
-def _transition(found: Transition) -> Document:
-    """An event behind which the motion went on; its time is rounded to what its error supports."""
-    time, error = _time(found.time, found.error)
-    return {"name": found.name, "time": time, "kind": found.kind, "loss": short(found.loss, 6), "error": error}
+def _transitions(found: tuple[Transition, ...]) -> list[Document]:
+    """The events behind which the motion went on; their times are rounded to what their errors support."""
+    times = _times([each.time for each in found], [each.error for each in found])
+    return [
+        {"name": each.name, "time": time, "kind": each.kind, "loss": short(each.loss, 6), "error": error}
+        for each, (time, error) in zip(found, times, strict=True)
+    ]
 
 
-def _time(time: float, error: float | None) -> tuple[float, float | None]:
-    """A time rounded to what its error supports, and the error."""
-    told = rounded(np.array([time]), np.array([error or UNKNOWN_ERROR])).item()
-    return told, None if error is None else short(error)
+def _times(times: list[float], errors: list[float | None]) -> list[tuple[float, float | None]]:
+    """Times, each rounded to what its error supports, and the errors."""
+    told = rounded_alone(np.array(times), np.array([error or UNKNOWN_ERROR for error in errors]))
+    shorter = (None if error is None else short(error) for error in errors)
+    return list(zip(told.tolist(), shorter, strict=True))
 
 
 def _energy(request: Request, problem: Problem, trajectory: Trajectory, seen: Observation, errors: Floats) -> Document:

@@ -129,17 +129,17 @@ def quick_event(problem: Problem, watch: Watch, t_end: float) -> Event | None:
 
     Those that fell between two places that the kernel looked at are left to it.
     """
-    fallen = (watch.values <= 0.0).any(axis=1)
-    if (watch.least <= 0.0).sum() > (watch.values <= 0.0).any(axis=0).sum() or not fallen.any():
+    places, which = np.nonzero(watch.values <= 0.0)
+    if not len(places) or np.count_nonzero(watch.least <= 0.0) > len(set(which.tolist())):
         return first_event(problem, watch, t_end) if (watch.least <= 0.0).any() else None
-    last = int(np.argmax(fallen))
+    last = int(places[0])
     if last == 0:
         return first_event(problem, watch, t_end)
     start, span = float(watch.times[0]), float(watch.times[-1] - watch.times[0])
     b, state, values = float(watch.nodes[last]), np.empty(watch.states.shape[1]), np.empty(watch.functions)
     near = max(math.ulp(b), 0.5 * math.ulp(start + span * b) / span if span > 0.0 else 0.0)
     found: list[tuple[float, int, Floats]] = []
-    for j in np.flatnonzero(watch.values[last] <= 0.0).tolist():
+    for j in which[places == last].tolist():
         x = find_root(watch, problem.degrees, j, last, near, state, values)
         found.append((x, j, state.copy()))
     x, index, state = min(found, key=lambda each: each[:2])

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cached_property
+from typing import NamedTuple
 
 import numpy as np
 
@@ -16,8 +17,7 @@ from .problem import Floats, Problem
 TOUCHING = 1e-11  # a gap, relative to the coordinates
 
 
-@dataclass(frozen=True)
-class Mode:
+class Mode(NamedTuple):
     """Signs of kinks, of slipping and of switches (−1 or 1), flags of rows (1: held), offsets of watched values."""
 
     kinks: tuple[float, ...]
@@ -31,8 +31,7 @@ class Mode:
         return (*self.kinks, *self.slips, *self.flags, *self.offsets)
 
 
-@dataclass(frozen=True)
-class Facts:
+class Facts(NamedTuple):
     """What is known at a state.
 
     Of the rows `a` and the directions of their reactions `along`, shape (rows, n) each, the rates `w`, γ in `bias`, and
@@ -77,17 +76,16 @@ class ModeState:
     @cached_property
     def facts(self) -> Facts:
         """The rows with the flags of the mode."""
-        n, rows, bounded = len(self.q), self.modes.rows, self.modes.bounded
-        kinks, pins = len(self.modes.kinks), self.modes.pins
-        found = self.modes.facts.at(self.row)
-        parts = found[: rows * (2 * n + 2)].reshape(rows, 2 * n + 2)
-        rest = found[rows * (2 * n + 2) :]
-        gaps = rest[bounded : bounded + 3 * len(self.modes.contacts)].reshape(-1, 3)
-        end = bounded + gaps.size
-        last = end + kinks + pins
+        n, modes, found = len(self.q), self.modes, self.modes.facts.at(self.row)
+        rows, bounded = modes.rows, modes.bounded
+        first = rows * (2 * n + 2)
+        parts, end = found[:first].reshape(rows, 2 * n + 2), first + bounded + 3 * len(modes.contacts)
+        gaps = found[first + bounded : end].reshape(-1, 3)
+        pins = end + len(modes.kinks)
+        last = pins + modes.pins
         return Facts(
-            parts[:, :n], parts[:, n + 2 :], parts[:, n], parts[:, n + 1], rest[:bounded], gaps[:, 0], gaps[:, 2],
-            rest[end : end + kinks], rest[end + kinks : last], rest[last : last + rows],
+            parts[:, :n], parts[:, n + 2 :], parts[:, n], parts[:, n + 1], found[first : first + bounded],
+            gaps[:, 0], gaps[:, 2], found[end:pins], found[pins:last], found[last : last + rows],
         )  # fmt: skip
 
     @cached_property
@@ -98,7 +96,7 @@ class ModeState:
     @property
     def mass(self) -> Floats:
         """M, shape (n, n)."""
-        return np.asarray(self._system.mass[0])
+        return self._system.mass[0]
 
     @property
     def kept(self) -> tuple[Floats, Floats]:
@@ -144,8 +142,8 @@ class ModeState:
     @cached_property
     def kinetic(self) -> float:
         """½ q̇ᵀ M q̇, up to what does not change at an impact."""
-        with np.errstate(over="ignore", invalid="ignore"):  # what that makes of it is asked for
-            return float(0.5 * self.v @ self.mass @ self.v)
+        rates, rows = self.v.tolist(), self.mass.tolist()  # numbers of Python, which overflow without a warning
+        return 0.5 * sum(a * m * b for a, row in zip(rates, rows, strict=True) for m, b in zip(row, rates, strict=True))
 
     def at(self, time: float, q: Floats, v: Floats) -> ModeState:
         """Another state in the same mode; `q` and `v` have shape (n,)."""
@@ -157,7 +155,7 @@ class ModeState:
 
     def with_flags(self, flags: tuple[float, ...]) -> ModeState:
         """The same state with other rows held."""
-        return self.within(replace(self.mode, flags=flags))
+        return self.within(self.mode._replace(flags=flags))
 
     def pushed(self, row: int, change: float) -> ModeState:
         """The state behind an impulse along a row that changes its rate w by so much."""

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 
 import numpy as np
+from numpy.typing import NDArray
 
 from .problem import Floats
 
@@ -20,7 +21,17 @@ def rounded(values: Floats, errors: Floats) -> Floats:
 
     `values` has shape (samples, …), `errors` shape (samples,); returns the shape of `values`.
     """
-    decimals = _decimals(errors, MOST_DIGITS + _zeros(values))
+    return _to_decimals(values, _decimals(errors, MOST_DIGITS + _zeros(values)))
+
+
+def rounded_alone(values: Floats, errors: Floats) -> Floats:
+    """The same of numbers of which none is measured by the others: shape (numbers,) each."""
+    most = np.array([MOST_DIGITS + _zeros_of(size) for size in np.abs(values).tolist()])
+    return _to_decimals(values, _decimals(errors, most))
+
+
+def _to_decimals(values: Floats, decimals: Floats) -> Floats:
+    """Each value of shape (samples, …) with so many decimals, shape (samples,)."""
     result = values.copy()
     for count in np.unique(decimals[decimals <= EXACT]):
         chosen = decimals == count
@@ -56,7 +67,7 @@ def _in_range(found: Floats, values: Floats) -> Floats:
     return np.where(np.isfinite(found), found, values)
 
 
-def _decimals(errors: Floats, most: int) -> Floats:
+def _decimals(errors: Floats, most: int | NDArray[np.int64]) -> Floats:
     with np.errstate(divide="ignore"):
         places = np.ceil(-np.log10(np.abs(errors))) + GUARD_DIGITS
     return np.asarray(np.clip(places, 0, most))
@@ -64,8 +75,12 @@ def _decimals(errors: Floats, most: int) -> Floats:
 
 def _zeros(values: Floats) -> int:
     """How many zeros stand behind the decimal point of the largest: 2 for 0.004, 0 from 0.1 on and for zero."""
-    largest = float(np.max(np.abs(values), initial=0.0, where=np.isfinite(values)))
-    return max(0, -math.floor(math.log10(largest)) - 1) if largest > 0.0 else 0
+    return _zeros_of(float(np.max(np.abs(values), initial=0.0, where=np.isfinite(values))))
+
+
+def _zeros_of(size: float) -> int:
+    """The same of one size; none of an infinite one."""
+    return max(0, -math.floor(math.log10(size)) - 1) if 0.0 < size < math.inf else 0
 
 
 def significant(values: Floats, digits: int) -> Floats:

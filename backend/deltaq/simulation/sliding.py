@@ -11,7 +11,6 @@ Complementarity Problem, §3.3 (matrices whose principal minors are positive).
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import replace
 from itertools import combinations, product
 
 import numpy as np
@@ -50,7 +49,7 @@ def on_side(current: ModeState, row: int, side: float) -> ModeState:
     slips[row] = side or slips[row]
     flags = [*mode.flags]
     flags[row] = float(side == 0.0)
-    return current.within(replace(mode, slips=tuple(slips), flags=tuple(flags)))
+    return current.within(mode._replace(slips=tuple(slips), flags=tuple(flags)))
 
 
 def side_left_to(current: ModeState, row: int, *, has_come: bool) -> float:

@@ -85,7 +85,7 @@ def begun(problem: Problem, modes: Modes) -> ModeState:
     own = with_signs(problem, modes)
     current = ModeState(own, modes, 0.0, state[:n].copy(), state[n : 2 * n].copy(), empty)
     kinks, pins = (tuple(-1.0 if s < 0.0 else 1.0 for s in each) for each in (current.facts.kinks, current.facts.pins))
-    current = current.within(replace(empty, kinks=kinks, slips=(*empty.slips[: modes.first_pin], *pins)))
+    current = current.within(empty._replace(kinks=kinks, slips=(*empty.slips[: modes.first_pin], *pins)))
     closed = current.touching
     return _resolved(_after_impacts(current, closed[0]) if closed else current, frozenset(closed), None)
 
@@ -99,7 +99,7 @@ def passed(current: ModeState, watched: int) -> ModeEvent:
         if contact is not None and not mode.flags[modes.bounded + contact]:
             return _met(current, contact)
         kinks = tuple(-sign if k == place else sign for k, sign in enumerate(mode.kinks))
-        return _resolved(current.within(replace(mode, kinks=kinks)), frozenset(), None), "", "switch"
+        return _resolved(current.within(mode._replace(kinks=kinks)), frozenset(), None), "", "switch"
     place -= len(modes.kinks)
     if place < 2 * modes.bounded:
         return _come_or_gone(current, place // 2)
@@ -281,7 +281,7 @@ def _resolved(current: ModeState, closed: frozenset[int], released: int | None, 
         held[:bounded] = [sticks and not across[k] for k, sticks in enumerate(sticking)]
         slips = [across[k] or slip for k, slip in enumerate(slips)]
         flags = tuple(float(h) for h in held)
-        trial = current.within(replace(current.mode, flags=flags, slips=tuple(slips)))
+        trial = current.within(current.mode._replace(flags=flags, slips=tuple(slips)))
         lost = _lost(trial, held)
         if lost is None:
             break
@@ -289,7 +289,7 @@ def _resolved(current: ModeState, closed: frozenset[int], released: int | None, 
         if lost < bounded:
             sticking[lost] = False
             slips[lost] = _left(trial, lost, has_come=lost == come)
-    found = current.within(replace(current.mode, flags=tuple(map(float, held)), slips=tuple(slips)))
+    found = current.within(current.mode._replace(flags=tuple(map(float, held)), slips=tuple(slips)))
     found = trial if found.mode == trial.mode else found  # of which all is known already
     return with_offsets(settled(found, [row for row in at_zero if not across[row]]))
 
@@ -364,7 +364,7 @@ def with_offsets(current: ModeState) -> ModeState:
     What moves with the time alone, a table say, is somewhere else by what rounding does to the time.
     """
     modes, mode = current.modes, current.mode
-    plain = current if not any(mode.offsets) else current.within(replace(mode, offsets=(0.0,) * modes.watched))
+    plain = current if not any(mode.offsets) else current.within(mode._replace(offsets=(0.0,) * modes.watched))
     later = plain.at(plain.time + TICKS * math.ulp(plain.time), plain.q, plain.v)
     values, moved = plain.watched.tolist(), np.abs(later.watched - plain.watched).tolist()
     ending = len(modes.ending)
@@ -377,4 +377,4 @@ def with_offsets(current: ModeState) -> ModeState:
         room *= current.scale(place - last) if place >= last else 1.0
         room += moved[place]
         offsets.append(0.0 if place < ending or value > room else room - min(value, 0.0))
-    return current.within(replace(mode, offsets=tuple(offsets)))
+    return current.within(mode._replace(offsets=tuple(offsets)))
