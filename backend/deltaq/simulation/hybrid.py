@@ -103,7 +103,7 @@ def run_on(problem: Problem, modes: Modes, method: Method, times: Floats, cancel
     impacts part neighbours, and two runs that round alike would know nothing of it.
     """
     try:
-        current = _shaken(begun(problem, modes), 0, steps.shaken)
+        current = with_offsets(_shaken(begun(problem, modes), 0, steps.shaken))
     except SlidingError as sliding:
         return _not_begun(problem, times, steps, modes.name_of(sliding.row))
     width, count = current.problem.state.size, len(problem.reactions)
@@ -123,7 +123,7 @@ def run_on(problem: Problem, modes: Modes, method: Method, times: Floats, cancel
         behind = _behind(current, event, record, float(times[-1]))
         if isinstance(behind, _End):
             return _whole(record, times, behind.outcome, event.time, found, behind.at)
-        current = _shaken(behind, len(record.meshes), steps.shaken)
+        current = with_offsets(_shaken(behind, len(record.meshes), steps.shaken))
         if current.time >= times[-1]:
             return _whole(record, times, FINE, float(times[-1]), found)
 
@@ -131,7 +131,7 @@ def run_on(problem: Problem, modes: Modes, method: Method, times: Floats, cancel
 def in_first_mode(problem: Problem, modes: Modes) -> Problem:
     """The problem as it is up to its first event; as it stands where contacts or switches do not tell how it begins."""
     try:
-        return _problem(begun(replace(problem, model=modes.model), modes), 0)
+        return _problem(with_offsets(begun(replace(problem, model=modes.model), modes)), 0)
     except (UnsettledError, NoDirectionError, SlidingError):
         return problem
 
@@ -244,7 +244,7 @@ def _shaken(current: ModeState, number: int, pattern: int) -> ModeState:
     size = np.abs(current.v) + current.time * np.abs(current.accelerations)
     change = SHAKE * size * np.cos(2.0 * np.arange(len(size)) + pattern * (number + 2.0))
     kept = current.moved_by(current.mass @ change) if len(current.kept[0]) else change
-    return with_offsets(current.at(current.time, current.q, current.v + kept))
+    return current.at(current.time, current.q, current.v + kept)
 
 
 def _falling(current: ModeState, event: Event) -> Event:

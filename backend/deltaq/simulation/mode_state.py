@@ -96,7 +96,7 @@ class ModeState:
     @property
     def mass(self) -> Floats:
         """M, shape (n, n)."""
-        return self._system.mass[0]
+        return np.asarray(self._system.mass[0])
 
     @property
     def kept(self) -> tuple[Floats, Floats]:
@@ -143,7 +143,8 @@ class ModeState:
     def kinetic(self) -> float:
         """½ q̇ᵀ M q̇, up to what does not change at an impact."""
         rates, rows = self.v.tolist(), self.mass.tolist()  # numbers of Python, which overflow without a warning
-        return 0.5 * sum(a * m * b for a, row in zip(rates, rows, strict=True) for m, b in zip(row, rates, strict=True))
+        parts = (a * m * b for a, row in zip(rates, rows, strict=True) for m, b in zip(row, rates, strict=True))
+        return 0.5 * float(sum(parts))
 
     def at(self, time: float, q: Floats, v: Floats) -> ModeState:
         """Another state in the same mode; `q` and `v` have shape (n,)."""

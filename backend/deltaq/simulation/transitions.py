@@ -80,7 +80,10 @@ def _empty(modes: Modes) -> Mode:
 
 
 def begun(problem: Problem, modes: Modes) -> ModeState:
-    """The initial state in its mode. Raises UnsettledError, NoDirectionError, SlidingError where it has none."""
+    """The initial state in its mode, without offsets.
+
+    Raises UnsettledError, NoDirectionError or SlidingError where it has none.
+    """
     n, state, empty = problem.degrees, problem.state, _empty(modes)
     own = with_signs(problem, modes)
     current = ModeState(own, modes, 0.0, state[:n].copy(), state[n : 2 * n].copy(), empty)
@@ -91,7 +94,10 @@ def begun(problem: Problem, modes: Modes) -> ModeState:
 
 
 def passed(current: ModeState, watched: int) -> ModeEvent:
-    """The state behind an event of a watched value that goes on, the name of what it happened to, and its kind."""
+    """The state behind an event of a watched value that goes on, the name of what it happened to, and its kind.
+
+    Its offsets are still those from before (`with_offsets`).
+    """
     modes, ending, mode = current.modes, len(current.modes.ending), current.mode
     place = watched - ending
     if place < len(modes.kinks):
@@ -291,7 +297,7 @@ def _resolved(current: ModeState, closed: frozenset[int], released: int | None, 
             slips[lost] = _left(trial, lost, has_come=lost == come)
     found = current.within(current.mode._replace(flags=tuple(map(float, held)), slips=tuple(slips)))
     found = trial if found.mode == trial.mode else found  # of which all is known already
-    return with_offsets(settled(found, [row for row in at_zero if not across[row]]))
+    return settled(found, [row for row in at_zero if not across[row]])
 
 
 def _at_rest(current: ModeState, closed: frozenset[int], released: int | None, come: int | None) -> list[bool]:
