@@ -7,6 +7,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from scipy.integrate import solve_ivp
 from scipy.special import mathieu_a, mathieu_b
 
 from deltaq.lab.monodromy import Axis, Plane
@@ -58,6 +59,27 @@ def test_tongues_lie_between_the_boundaries_of_mathieu(q: float) -> None:
     expected = np.searchsorted(edges, a) % 2 == 1
     away = np.min(np.abs(a[:, None] - np.array(edges)), axis=1) > 1e-3
     assert (found == expected)[away].all()
+
+
+PULSES = hill("a*sqrt(pi)/q*exp(-(sin(pi*t)/q)^2)*x^2/2")  # once a second, a push of −a x within q/π s
+
+
+@pytest.mark.parametrize("width", [1e-3, 1e-2, 0.03, 0.06, 0.3])
+def test_pulses_thinner_than_a_step_are_met(width: float) -> None:
+    """The same by SciPy, in steps of a sixth of the pulse; some of these motions are stable, some are not."""
+    strengths = np.array([1.0, 2.2, 3.4, 4.6, 5.8])
+    found = plane(PULSES, strengths, np.array([width, 2.0 * width]), 1.0).map()
+
+    def columns(t: float, y: np.ndarray, strength: float) -> list[float]:
+        pull = -strength * math.sqrt(math.pi) / width * math.exp(-((math.sin(math.pi * t) / width) ** 2))
+        return [y[1], pull * y[0], y[3], pull * y[2]]
+
+    options = {"method": "DOP853", "rtol": 1e-9, "atol": 1e-11, "max_step": width / 6.0}
+    for strength, multipliers in zip(strengths, found.multipliers[0], strict=True):
+        end = solve_ivp(columns, (0.0, 1.0), [1.0, 0.0, 0.0, 1.0], args=(strength,), **options).y[:, -1]
+        assert multipliers.sum().real == pytest.approx(end[0] + end[3], abs=1e-5)
+        assert np.prod(multipliers) == pytest.approx(1.0, abs=1e-5)
+    assert sorted(set(found.is_stable[0].tolist())) == [False, True]
 
 
 def test_multipliers_come_in_pairs_or_shrink_with_the_damping() -> None:

@@ -86,7 +86,7 @@ class Deviation:
         plan, problem = self.pair.control.plan, self.audit.problem
         count, stride = int(plan.progress[COUNT]), int(plan.progress[STRIDE])
         times, states = plan.times[:count], plan.states[:count]
-        return self.audit.after(Mesh(problem, float(times[0]), times, states, stride), SEEN)
+        return self.audit.after_each((Mesh(problem, float(times[0]), times, states, stride),), SEEN)
 
     @property
     def _memory(self) -> tuple[Floats, ...]:

@@ -16,19 +16,24 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..mechanics.library import load_scene
+from ..simulation.audit import Audit
 from ..simulation.integration import Flag, explicit_weights, motion_of
-from ..simulation.kernels.monodromy import Flow, Found, Survey, make_newton_workspace, survey
-from ..simulation.kernels.motion import CANCELLED, FINE
+from ..simulation.kernels.monodromy import NUDGE, Flow, Found, Survey, make_newton_workspace, survey
+from ..simulation.kernels.motion import CANCELLED, FINE, STEP_UNDERFLOW
 from ..simulation.kernels.plan import make_plan
+from ..simulation.kernels.sight import Meshes
 from ..simulation.kernels.step import make_workspace
 from ..simulation.kernels.step_control import Control
 from ..simulation.kernels.watch import unwatched
 from ..simulation.library import get_method
+from ..simulation.march import SEEN
 from ..simulation.method import Tableau
 from ..simulation.problem import Floats
 from ..simulation.problem import Problem as InitialValueProblem
+from ..simulation.run import Steps
 from ..simulation.service import problem_of
 from ..simulation.stability import real_stability
+from ..simulation.watched import seen
 from .engine import engine, while_wanted
 
 METHOD = "dop853"
@@ -37,6 +42,8 @@ STEP_LIMIT = 20_000  # in one period
 ROUNDING = 1e-6  # of |μ|: central differences leave that much
 CHUNK = 256  # points that are worked out at a time
 PROBES = 16  # points that are looked at first
+MESH = 256  # ends of steps in a period that are looked at together
+AGAIN, ROUNDS = 4, 12  # of a point, and of the motion beside it, each by shorter steps
 
 
 @dataclass(frozen=True)
@@ -107,14 +114,13 @@ class Plane:
     @cached_property
     def _table(self) -> Survey:
         grid = np.array([(a, b) for b in self.second.values for a in self.first.values])
-        return Survey(
-            self._input(self.first), self._input(self.second), grid, np.ascontiguousarray(self.periods).ravel()
-        )
+        periods = np.ascontiguousarray(self.periods).ravel()
+        return Survey(self._input(self.first), self._input(self.second), grid, periods, periods)
 
     def _part(self, places: slice | NDArray[np.int_]) -> Survey:
         """Some rows of the table."""
-        values, periods = self._table.values[places], self._table.periods[places]
-        return self._table._replace(values=np.ascontiguousarray(values), periods=np.ascontiguousarray(periods))
+        values, periods = (np.ascontiguousarray(each[places]) for each in (self._table.values, self._table.periods))
+        return self._table._replace(values=values, periods=periods, steps=periods)
 
     def _input(self, axis: Axis) -> int:
         """The place of the parameter among the inputs of the model."""
@@ -132,22 +138,65 @@ class Plane:
 def surveyed(problem: InitialValueProblem, start: Floats, cancelled: Flag, table: Survey) -> Found:
     """Periodic states and monodromy matrices for the rows of a table.
 
-    Each is looked for from the state `start`, shape (2n,).
+    Each is looked for from the state `start`, shape (2n,). Where steps may have passed over what the forces do within a
+    period they are taken again, shorter.
     """
+    longest = replace(problem, t_end=float(table.periods.max()))
+    found, meshes = _surveyed(longest, start, cancelled, table)
+    watcher, places = Audit(longest, get_method(METHOD)).watcher(MESH), np.flatnonzero(found.outcomes == FINE)
+    parameters = _parameters(problem, table)
+    kept = places[meshes.counts[places] > 0]
+    blind = kept[watcher.blind(meshes, parameters, kept, SEEN)]
+    for place in np.union1d(blind, places[meshes.counts[places] == 0]).tolist():
+        _look_again(replace(problem, parameters=tuple(parameters[place].tolist())), cancelled, table, place, found)
+    return found
+
+
+def _surveyed(problem: InitialValueProblem, start: Floats, cancelled: Flag, table: Survey) -> tuple[Found, Meshes]:
+    """What steps find that are bounded as the table says, and where those beside the periodic motions end."""
     scheme = get_method(METHOD).tableau
     if not isinstance(scheme, Tableau):
         raise TypeError("the survey steps by an explicit Runge–Kutta method")
     weights, width, count = explicit_weights(scheme), 2 * problem.degrees, table.periods.size
-    longest = float(table.periods.max())
-    plan = make_plan(np.array([longest]), np.array([longest]), width)
-    control = Control(TOLERANCE, longest, 8.0, 0.0, STEP_LIMIT, scheme.stages, real_stability(scheme), plan)
+    plan = make_plan(np.array([problem.t_end]), np.array([problem.t_end]), width, MESH)
+    control = Control(TOLERANCE, problem.t_end, 8.0, 0.0, STEP_LIMIT, scheme.stages, real_stability(scheme), plan)
     motion, workspace = motion_of(problem)._replace(is_powered=False), make_workspace(start.copy(), weights)
-    outcomes = np.full(count, CANCELLED, dtype=np.int64)
+    outcomes, counts = np.full(count, CANCELLED, dtype=np.int64), np.zeros(count, dtype=np.int64)
     found = Found(np.zeros((count, width)), np.zeros((count, width, width)), outcomes)
+    meshes = Meshes(np.zeros((count, MESH, width + 1)), counts)
     with while_wanted(cancelled) as flag:
         flow = Flow(motion, weights, control, unwatched(flag), workspace, np.zeros(2), np.zeros((2, width)))
-        survey(flow, start, table, (0, count), found, make_newton_workspace(width))
+        survey(flow, start, table, (0, count), found, make_newton_workspace(width), meshes)
+    return found, meshes
+
+
+def _parameters(problem: InitialValueProblem, table: Survey) -> Floats:
+    """Those of each row of a table: shape (points, parameters)."""
+    found, first = np.tile(np.array(problem.parameters), (table.periods.size, 1)), 2 * problem.degrees + 1
+    found[:, [table.first - first, table.second - first]] = table.values
     return found
+
+
+def _look_again(problem: InitialValueProblem, cancelled: Flag, table: Survey, place: int, found: Found) -> None:
+    """Puts right what is found at one point, by steps that see all that is met there; without an outcome if none do."""
+    period, n, method = float(table.periods[place]), problem.degrees, get_method(METHOD)
+    row = Survey(table.first, table.second, table.values[[place]], np.array([period]), np.array([period]))
+    for _ in range(AGAIN):
+        state = found.states[place] + NUDGE
+        beside = replace(problem, values=tuple(state[:n].tolist()), rates=tuple(state[n:].tolist()), t_end=period)
+        steps = Steps(float(row.steps[0]), TOLERANCE)
+        run, blind = seen(beside, method, np.array([0.0, period]), steps, SEEN, cancelled, ROUNDS)
+        needed = float(min(run.steps.pieces.largest)) if run.steps.pieces else np.inf
+        if not blind and needed >= row.steps[0]:
+            return
+        if blind:
+            break
+        row = row._replace(steps=np.array([needed]))
+        again, _ = _surveyed(beside, found.states[place].copy(), cancelled, row)
+        found.states[place], found.matrices[place], found.outcomes[place] = (each[0] for each in again)
+        if found.outcomes[place] != FINE:
+            return
+    found.outcomes[place] = STEP_UNDERFLOW
 
 
 def warm() -> None:

@@ -16,6 +16,8 @@ from .compiler import inline, kernel, runtime_int, subroutine
 from .explicit_runge_kutta import integrate
 from .linear import decompose, substitute
 from .motion import CANCELLED, FINE, Floats, Motion
+from .plan import COUNT, STRIDE, start_record
+from .sight import Meshes
 from .step import Weights, Workspace
 from .step_control import Control
 from .watch import Watch
@@ -29,13 +31,14 @@ NOT_PERIODIC = 100
 class Survey(NamedTuple):
     """What is varied: inputs number `first` and `second` of the motion, and the period of each point.
 
-    `values` has shape (points, 2), `periods` shape (points,), in seconds.
+    `values` has shape (points, 2), `periods` and `steps`, which none is longer than, shape (points,), in seconds.
     """
 
     first: int
     second: int
     values: Floats  # shape (points, 2)
     periods: Floats
+    steps: Floats
 
 
 class Found(NamedTuple):
@@ -82,9 +85,15 @@ def make_newton_workspace(width: int) -> NewtonWorkspace:
 
 @kernel
 def survey(
-    flow: Flow, start: Floats, table: Survey, span: tuple[int, int], found: Found, newton: NewtonWorkspace
+    flow: Flow,
+    start: Floats,
+    table: Survey,
+    span: tuple[int, int],
+    found: Found,
+    newton: NewtonWorkspace,
+    meshes: Meshes,
 ) -> int:
-    """Fills the points span[0] … span[1] − 1 of `found`; FINE or CANCELLED.
+    """Fills the points span[0] … span[1] − 1 of `found`, and of `meshes`; FINE or CANCELLED.
 
     Each begins at the periodic state of the point before, if there is one, else at the state `start`, shape (2n,).
     """
@@ -95,12 +104,34 @@ def survey(
         flow.motion.inputs[table.first] = table.values[point, 0]
         flow.motion.inputs[table.second] = table.values[point, 1]
         flow.times[1] = table.periods[point]
+        flow.control.plan.sizes[0] = table.steps[point]
         state = found.states[point]
         for d in range(start.size):
             state[d] = found.states[point - 1, d] if near else start[d]
         found.outcomes[point] = periodic(flow, state, found.matrices[point], newton)
         near = found.outcomes[point] == FINE
+        if near:
+            trace(flow, state, point, newton, meshes)
     return FINE
+
+
+@inline
+def trace(flow: Flow, state: Floats, point: int, newton: NewtonWorkspace, meshes: Meshes) -> None:
+    """Keeps where the steps end of a motion from beside a periodic state, shape (2n,), as a point's mesh.
+
+    All components are NUDGE away, as those are from which derivatives come: at rest many forces are nothing. Of more
+    steps than there is room for none are kept.
+    """
+    plan = flow.control.plan
+    for d in range(state.size):
+        newton.gap[d] = state[d] + NUDGE
+    meshes.counts[point] = 0
+    if follow(flow, newton.gap, runtime_int(0), 0.0) == FINE and plan.progress[STRIDE] == 1:
+        meshes.counts[point] = plan.progress[COUNT]
+        for k in range(plan.progress[COUNT]):
+            meshes.rows[point, k, state.size] = plan.times[k]
+            for d in range(state.size):
+                meshes.rows[point, k, d] = plan.states[k, d]
 
 
 @inline
@@ -157,5 +188,6 @@ def follow(flow: Flow, state: Floats, moved: int, by: float) -> int:
         flow.workspace.compensation[d] = 0.0
     flow.workspace.old[moved] += by
     flow.control.plan.ends[0] = flow.times[1]
+    start_record(flow.control.plan.progress)
     result = integrate(flow.motion, flow.weights, flow.control, flow.watch, flow.workspace, flow.times, flow.out)
     return result.outcome

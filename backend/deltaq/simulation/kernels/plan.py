@@ -68,6 +68,12 @@ def fit_step(plan: Plan, piece: int, t: float, wanted: float) -> tuple[float, bo
 
 
 @inline
+def start_record(progress: NDArray[np.int64]) -> None:
+    """Nothing is recorded yet: `progress` has shape (3,)."""
+    progress[COUNT], progress[STRIDE], progress[SKIPPED] = 0, 1, 0
+
+
+@inline
 def record(plan: Plan, t: float, state: Floats) -> None:
     """Records the end of a step, a state of shape (≥ 2n,)."""
     record_row(plan.times, plan.states, plan.progress, t, state)
