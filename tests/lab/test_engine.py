@@ -22,7 +22,7 @@ from deltaq.contract.ensemble import EnsembleRequest
 from deltaq.lab import engine as engine_module
 from deltaq.lab import flips
 from deltaq.lab.engine import SCHEDULER, engine
-from deltaq.lab.monodromy import Axis, Plane, surveyed
+from deltaq.lab.monodromy import Axis, Plane, part_of, surveyed
 from deltaq.mechanics.library import load_scene
 from deltaq.simulation.service import problem_of
 
@@ -93,7 +93,7 @@ def test_map_on_a_cluster_is_the_same(cluster: list[subprocess.Popen[bytes]], mo
 @pytest.mark.filterwarnings("default")
 def test_nothing_is_missing_when_a_worker_is_lost_in_the_middle(cluster: list[subprocess.Popen[bytes]]) -> None:
     plane, cancelled = kapitza(), np.zeros(1, dtype=np.int64)
-    parts = [plane._part(slice(first, first + 10)) for first in range(0, 900, 10)]
+    parts = [part_of(plane._table, slice(first, first + 10)) for first in range(0, 900, 10)]
     work = partial(surveyed, plane.problem, plane.problem.state[:2], cancelled)
     with engine() as executor:
         results = executor.map(work, parts)

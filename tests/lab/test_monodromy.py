@@ -61,6 +61,15 @@ def test_tongues_lie_between_the_boundaries_of_mathieu(q: float) -> None:
     assert (found == expected)[away].all()
 
 
+@pytest.mark.parametrize("way", [1.0, 1e-2, 1e-4, 1e-6, 1e-8])
+def test_small_motions_are_those_of_mathieu_however_soon_a_spring_stiffens(way: float) -> None:
+    """At rest x³ says nothing; from there neighbours move far less than the `way` after which it is as large as x."""
+    boundaries = np.array(sorted([*(mathieu_a(k, 0.7) for k in range(4)), *(mathieu_b(k, 0.7) for k in range(1, 4))]))
+    scene = hill(f"(a - 2*q*cos(2*t))*x^2/2 + {way**-2:.0f}*x^4/4")
+    found = plane(scene, boundaries, np.array([0.7, 1.7])).map()
+    assert np.abs(found.multipliers[0].sum(axis=-1)) == pytest.approx(2.0, abs=3e-6)
+
+
 PULSES = hill("a*sqrt(pi)/q*exp(-(sin(pi*t)/q)^2)*x^2/2")  # once a second, a push of −a x within q/π s
 
 

@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 from ..mechanics.library import load_scene
 from ..simulation.audit import Audit
 from ..simulation.integration import Flag, explicit_weights, motion_of
-from ..simulation.kernels.monodromy import NUDGE, Flow, Found, Survey, make_newton_workspace, survey
+from ..simulation.kernels.monodromy import Flow, Found, Survey, make_newton_workspace, survey
 from ..simulation.kernels.motion import CANCELLED, FINE, STEP_UNDERFLOW
 from ..simulation.kernels.plan import make_plan
 from ..simulation.kernels.sight import Meshes
@@ -26,7 +26,6 @@ from ..simulation.kernels.step import make_workspace
 from ..simulation.kernels.step_control import Control
 from ..simulation.kernels.watch import unwatched
 from ..simulation.library import get_method
-from ..simulation.march import SEEN
 from ..simulation.method import Tableau
 from ..simulation.problem import Floats
 from ..simulation.problem import Problem as InitialValueProblem
@@ -37,7 +36,10 @@ from ..simulation.watched import seen
 from .engine import engine, while_wanted
 
 METHOD = "dop853"
-TOLERANCE = 1e-12
+TOLERANCE, ROUNDED = 1e-8, 1e-14  # local: over the distance of neighbours, but not below the state's rounding
+NUDGES = tuple(10.0**-k for k in range(4, 17))  # distances of neighbours
+SAME = 3e-7  # of monodromy matrices by neighbours at unlike distances
+UNSEEN = 1e-6  # of that distance: what moves a motion by less may be missed
 STEP_LIMIT = 20_000  # in one period
 ROUNDING = 1e-6  # of |μ|: central differences leave that much
 CHUNK = 256  # points that are worked out at a time
@@ -89,19 +91,28 @@ class Plane:
     def map(self, cancelled: Flag | None = None) -> StabilityMap:
         """Every point, on all processors."""
         flag = np.zeros(1, dtype=np.int64) if cancelled is None else cancelled
-        start = self._nearest(flag)
-        parts = [self._part(slice(first, first + CHUNK)) for first in range(0, self.periods.size, CHUNK)]
+        start, nudge = self._prepared(flag)
+        table = self._table._replace(nudge=nudge)
+        parts = [part_of(table, slice(first, first + CHUNK)) for first in range(0, self.periods.size, CHUNK)]
         with engine() as executor:
             found = list(executor.map(partial(surveyed, self.problem, start, flag), parts))
         return self._read(Found(*map(np.concatenate, zip(*found, strict=True))))
 
-    def _nearest(self, cancelled: Flag) -> Floats:
-        """Of the periodic states at a few points, the one nearest to the problem's own state, so that all follow it."""
+    def _prepared(self, cancelled: Flag) -> tuple[Floats, float]:
+        """Of the periodic states at a few points, the one nearest to the problem's own state, so that all follow it.
+
+        And how far away neighbours are: so near that a tenth of it says the same.
+        """
         own = self.problem.state[: 2 * self.problem.degrees]
-        places = np.unique(np.linspace(0, self.periods.size - 1, PROBES).astype(int))
-        found = surveyed(self.problem, own, cancelled, self._part(places))
-        good = found.states[found.outcomes == FINE]
-        return good[np.argmin(np.linalg.norm(good - own, axis=1))] if len(good) else own
+        probes = part_of(self._table, np.unique(np.linspace(0, self.periods.size - 1, PROBES).astype(int)))
+        tried = [surveyed(self.problem, own, cancelled, probes)]
+        while len(tried) < len(NUDGES) and not (len(tried) > 1 and _agree(*tried[-2:])):
+            nearer = probes._replace(nudge=NUDGES[len(tried)])
+            tried.append(surveyed(self.problem, own, cancelled, nearer))
+        which = max(len(tried) - 2, 0) if _agree(*tried[-2:]) else 0
+        good = tried[which].states[tried[which].outcomes == FINE]
+        nearest = good[np.argmin(np.linalg.norm(good - own, axis=1))] if len(good) else own
+        return nearest, NUDGES[which]
 
     def refined(self, cancelled: Flag | None = None, coarsest: int = 8) -> Iterator[StabilityMap]:
         """The map with every 8th, every 4th, every second point of both axes, and all of them."""
@@ -115,12 +126,7 @@ class Plane:
     def _table(self) -> Survey:
         grid = np.array([(a, b) for b in self.second.values for a in self.first.values])
         periods = np.ascontiguousarray(self.periods).ravel()
-        return Survey(self._input(self.first), self._input(self.second), grid, periods, periods)
-
-    def _part(self, places: slice | NDArray[np.int_]) -> Survey:
-        """Some rows of the table."""
-        values, periods = (np.ascontiguousarray(each[places]) for each in (self._table.values, self._table.periods))
-        return self._table._replace(values=values, periods=periods, steps=periods)
+        return Survey(self._input(self.first), self._input(self.second), grid, periods, periods, NUDGES[0])
 
     def _input(self, axis: Axis) -> int:
         """The place of the parameter among the inputs of the model."""
@@ -135,6 +141,19 @@ class Plane:
         return StabilityMap(self.first, self.second, growth.reshape(shape), states, roots)
 
 
+def part_of(table: Survey, places: slice | NDArray[np.int_]) -> Survey:
+    """Some rows of a table."""
+    values, periods = (np.ascontiguousarray(each[places]) for each in (table.values, table.periods))
+    return table._replace(values=values, periods=periods, steps=periods)
+
+
+def _agree(one: Found, other: Found) -> bool:
+    """Whether monodromy matrices say the same, wherever both have some, and somewhere they have."""
+    both = (one.outcomes == FINE) & (other.outcomes == FINE)
+    apart, sizes = np.abs(one.matrices - other.matrices)[both], np.maximum(1.0, np.abs(other.matrices[both]))
+    return bool(both.any() and (apart <= SAME * sizes).all())
+
+
 def surveyed(problem: InitialValueProblem, start: Floats, cancelled: Flag, table: Survey) -> Found:
     """Periodic states and monodromy matrices for the rows of a table.
 
@@ -146,7 +165,7 @@ def surveyed(problem: InitialValueProblem, start: Floats, cancelled: Flag, table
     watcher, places = Audit(longest, get_method(METHOD)).watcher(MESH), np.flatnonzero(found.outcomes == FINE)
     parameters = _parameters(problem, table)
     kept = places[meshes.counts[places] > 0]
-    blind = kept[watcher.blind(meshes, parameters, kept, SEEN)]
+    blind = kept[watcher.blind(meshes, parameters, kept, UNSEEN * table.nudge)]
     for place in np.union1d(blind, places[meshes.counts[places] == 0]).tolist():
         _look_again(replace(problem, parameters=tuple(parameters[place].tolist())), cancelled, table, place, found)
     return found
@@ -159,13 +178,17 @@ def _surveyed(problem: InitialValueProblem, start: Floats, cancelled: Flag, tabl
         raise TypeError("the survey steps by an explicit Runge–Kutta method")
     weights, width, count = explicit_weights(scheme), 2 * problem.degrees, table.periods.size
     plan = make_plan(np.array([problem.t_end]), np.array([problem.t_end]), width, MESH)
-    control = Control(TOLERANCE, problem.t_end, 8.0, 0.0, STEP_LIMIT, scheme.stages, real_stability(scheme), plan)
+    floor = ROUNDED * max(1e-300, float(np.abs(start).max()))
+    tolerance = max(TOLERANCE * table.nudge, floor)
+    control = Control(tolerance, problem.t_end, 8.0, 0.0, STEP_LIMIT, scheme.stages, real_stability(scheme), plan)
     motion, workspace = motion_of(problem)._replace(is_powered=False), make_workspace(start.copy(), weights)
     outcomes, counts = np.full(count, CANCELLED, dtype=np.int64), np.zeros(count, dtype=np.int64)
     found = Found(np.zeros((count, width)), np.zeros((count, width, width)), outcomes)
     meshes = Meshes(np.zeros((count, MESH, width + 1)), counts)
     with while_wanted(cancelled) as flag:
-        flow = Flow(motion, weights, control, unwatched(flag), workspace, np.zeros(2), np.zeros((2, width)))
+        flow = Flow(
+            motion, weights, control, unwatched(flag), workspace, np.zeros(2), np.zeros((2, width)), table.nudge
+        )
         survey(flow, start, table, (0, count), found, make_newton_workspace(width), meshes)
     return found, meshes
 
@@ -180,12 +203,12 @@ def _parameters(problem: InitialValueProblem, table: Survey) -> Floats:
 def _look_again(problem: InitialValueProblem, cancelled: Flag, table: Survey, place: int, found: Found) -> None:
     """Puts right what is found at one point, by steps that see all that is met there; without an outcome if none do."""
     period, n, method = float(table.periods[place]), problem.degrees, get_method(METHOD)
-    row = Survey(table.first, table.second, table.values[[place]], np.array([period]), np.array([period]))
+    row = part_of(table, np.array([place]))
     for _ in range(AGAIN):
-        state = found.states[place] + NUDGE
+        state = found.states[place] + table.nudge
         beside = replace(problem, values=tuple(state[:n].tolist()), rates=tuple(state[n:].tolist()), t_end=period)
         steps = Steps(float(row.steps[0]), TOLERANCE)
-        run, blind = seen(beside, method, np.array([0.0, period]), steps, SEEN, cancelled, ROUNDS)
+        run, blind = seen(beside, method, np.array([0.0, period]), steps, UNSEEN * table.nudge, cancelled, ROUNDS)
         needed = float(min(run.steps.pieces.largest)) if run.steps.pieces else np.inf
         if not blind and needed >= row.steps[0]:
             return

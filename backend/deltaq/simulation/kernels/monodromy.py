@@ -22,8 +22,7 @@ from .step import Weights, Workspace
 from .step_control import Control
 from .watch import Watch
 
-NUDGE = 1e-4
-PASSES, CLOSE = 12, 1e-9
+PASSES, CLOSE = 12, 1e-5  # how near a state is to where it was a period before, over the distance of neighbours
 LONGEST_MOVE = 0.5  # in one pass
 NOT_PERIODIC = 100
 
@@ -31,6 +30,7 @@ NOT_PERIODIC = 100
 class Survey(NamedTuple):
     """What is varied: inputs number `first` and `second` of the motion, and the period of each point.
 
+    Neighbours are a `nudge` away.
     `values` has shape (points, 2), `periods` and `steps`, which none is longer than, shape (points,), in seconds.
     """
 
@@ -39,6 +39,7 @@ class Survey(NamedTuple):
     values: Floats  # shape (points, 2)
     periods: Floats
     steps: Floats
+    nudge: float
 
 
 class Found(NamedTuple):
@@ -55,7 +56,7 @@ class Found(NamedTuple):
 class Flow(NamedTuple):
     """What it takes to follow the motion from `times[0]` to `times[1]`; out[1] becomes the state there.
 
-    `times` has shape (2,), `out` shape (2, 2n). `watch` is for being cancelled only.
+    `times` has shape (2,), `out` shape (2, 2n). `watch` is for being cancelled only. Neighbours are a `nudge` away.
     """
 
     motion: Motion
@@ -65,6 +66,7 @@ class Flow(NamedTuple):
     workspace: Workspace
     times: Floats
     out: Floats  # shape (2, 2n)
+    nudge: float
 
 
 class NewtonWorkspace(NamedTuple):
@@ -119,12 +121,12 @@ def survey(
 def trace(flow: Flow, state: Floats, point: int, newton: NewtonWorkspace, meshes: Meshes) -> None:
     """Keeps where the steps end of a motion from beside a periodic state, shape (2n,), as a point's mesh.
 
-    All components are NUDGE away, as those are from which derivatives come: at rest many forces are nothing. Of more
+    All components are a nudge away, as those are from which derivatives come: at rest many forces are nothing. Of more
     steps than there is room for none are kept.
     """
     plan = flow.control.plan
     for d in range(state.size):
-        newton.gap[d] = state[d] + NUDGE
+        newton.gap[d] = state[d] + flow.nudge
     meshes.counts[point] = 0
     if follow(flow, newton.gap, runtime_int(0), 0.0) == FINE and plan.progress[STRIDE] == 1:
         meshes.counts[point] = plan.progress[COUNT]
@@ -149,7 +151,7 @@ def periodic(flow: Flow, state: Floats, matrix: Floats, newton: NewtonWorkspace)
             newton.gap[d] = flow.out[1, d] - state[d]
             distance = max(distance, abs(newton.gap[d]))
         outcome = columns(flow, state, matrix)
-        if outcome != FINE or distance < CLOSE:
+        if outcome != FINE or distance < CLOSE * flow.nudge:
             return outcome
         for i in range(state.size):
             for j in range(state.size):
@@ -171,12 +173,12 @@ def columns(flow: Flow, state: Floats, matrix: Floats) -> int:
     """The monodromy matrix, shape (2n, 2n), at a state of shape (2n,), by central differences; returns the outcome."""
     for j in range(state.size):
         for sign in (1.0, -1.0):
-            outcome = follow(flow, state, j, sign * NUDGE)
+            outcome = follow(flow, state, j, sign * flow.nudge)
             if outcome != FINE:
                 return outcome
             for i in range(state.size):
                 before = matrix[i, j] if sign < 0.0 else 0.0
-                matrix[i, j] = before + sign * flow.out[1, i] / (2.0 * NUDGE)
+                matrix[i, j] = before + sign * flow.out[1, i] / (2.0 * flow.nudge)
     return FINE
 
 
