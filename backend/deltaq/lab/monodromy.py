@@ -142,7 +142,7 @@ class Plane:
 
 
 def part_of(table: Survey, places: slice | NDArray[np.int_]) -> Survey:
-    """Some rows of a table."""
+    """Some rows of a table, by their numbers: shape (rows,)."""
     values, periods = (np.ascontiguousarray(each[places]) for each in (table.values, table.periods))
     return table._replace(values=values, periods=periods, steps=periods)
 
