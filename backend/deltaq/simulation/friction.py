@@ -5,10 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-import numpy as np
-
 from ..model.modes import Modes
-from .problem import Floats, Stretch, numbers_of_stretches
+from .problem import Floats, Stretch, inputs_of_stretches
 
 
 @dataclass(frozen=True)
@@ -33,12 +31,7 @@ def friction_along(
     count = len(modes.frictions)
     if not stretches or not count:
         return {}
-    number = numbers_of_stretches(times, stretches)
-    found = np.zeros((len(times), 2 * count))
-    for k in np.unique(number):
-        here = number == k
-        problem = stretches[k].problem
-        facts = modes.facts.table(problem.inputs(times[here], states[here]))
-        first = modes.rows * (2 * problem.degrees + 2)
-        found[here] = np.hstack([facts[:, -count:], facts[:, first : first + count]])
-    return {name: FrictionForce(found[:, k], found[:, count + k]) for k, name in enumerate(modes.frictions)}
+    facts = modes.facts.table(inputs_of_stretches(times, states, stretches))
+    first = modes.rows * (2 * stretches[0].problem.degrees + 2)
+    forces, largest = facts[:, -count:], facts[:, first : first + count]
+    return {name: FrictionForce(forces[:, k], largest[:, k]) for k, name in enumerate(modes.frictions)}

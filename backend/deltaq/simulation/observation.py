@@ -4,11 +4,9 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-import numpy as np
-
 from ..model.model import Observation
 from ..model.modes import Modes
-from .problem import Floats, Problem, Stretch, numbers_of_stretches
+from .problem import Floats, Problem, Stretch, inputs_of_stretches
 
 
 def observed(
@@ -21,10 +19,5 @@ def observed(
     seen = problem.model.observe(problem.inputs(times, states))
     if modes is None or not modes.switches or not stretches:
         return seen
-    arrows = {name: force.copy() for name, force in seen.arrows.items()}
-    number = numbers_of_stretches(times, stretches)
-    for k in np.unique(number):
-        here, own = number == k, stretches[k].problem
-        for name, force in own.model.observe(own.inputs(times[here], states[here])).arrows.items():
-            arrows[name][here] = force
-    return replace(seen, arrows=arrows)
+    in_modes = stretches[0].problem.model.observe(inputs_of_stretches(times, states, stretches))
+    return replace(seen, arrows={**seen.arrows, **in_modes.arrows})

@@ -113,3 +113,12 @@ def numbers_of_stretches(times: Floats, stretches: tuple[Stretch, ...]) -> NDArr
     before, behind = (np.searchsorted(starts, times, side=side) - 1 for side in ("left", "right"))
     follows = np.append(times[1:] == times[:-1], False)
     return np.asarray(np.maximum(np.where(follows, before, behind), 0))
+
+
+def inputs_of_stretches(times: Floats, states: Floats, stretches: tuple[Stretch, ...]) -> Floats:
+    """What a model's functions read at samples, each in the mode of its stretch: shape (samples, inputs).
+
+    `times` has shape (samples,), `states` shape (samples, ≥ 2n).
+    """
+    parameters = np.array([each.problem.parameters for each in stretches])[numbers_of_stretches(times, stretches)]
+    return np.hstack([states[:, : 2 * stretches[0].problem.degrees], times[:, None], parameters])
