@@ -2,12 +2,20 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from tests.simulation.bound_kinds import KINDS, SKATE, TURNED
 from tests.simulation.bound_motions import Kind
 from tests.simulation.multiplier_errors import Compared, compared
 from tests.simulation.test_impacts_with_constraints import G, dumbbell, hung, moved
+
+from deltaq.mechanics.library import load_scene
+from deltaq.simulation.consistency import consistent
+from deltaq.simulation.driver import simulate
+from deltaq.simulation.library import get_method
+from deltaq.simulation.service import problem_of
 
 OTHERS = [kind for kind in KINDS if kind not in (SKATE, TURNED)]
 
@@ -31,6 +39,22 @@ def test_so_are_those_of_other_kinds(kind: Kind) -> None:
     found = judged(kind)
     assert found
     assert [each for each in found if each.short > 10.0 or each.excess > 100.0] == []
+
+
+@pytest.mark.parametrize("scale", [0.97, 1.0, 1.02, 1.05])
+def test_errors_that_turn_from_one_step_to_the_next_are_told(scale: float) -> None:
+    """Both runs of a pair may err by about the same; truth is a far finer run by another method."""
+    given = problem_of(load_scene("four-bar"), 10.0, 251)
+    problem = consistent(replace(given, rates=tuple(scale * rate for rate in given.rates)))
+    found = simulate(problem, get_method("gauss-4"), tolerance=1e-3)
+    true = simulate(problem, get_method("dop853"), tolerance=1e-10)
+    assert found.estimate is not None
+    assert found.estimate.multipliers is not None
+    assert found.reactions is not None
+    assert true.reactions is not None
+    assert (np.abs(found.values - true.values).max(axis=1) <= found.estimate.errors + 1e-10).all()
+    wrong = np.abs(found.reactions.multipliers - true.reactions.multipliers)
+    assert (wrong <= found.estimate.multipliers + 1e-10 * np.abs(true.reactions.multipliers).max()).all()
 
 
 def test_errors_are_told_in_every_mode() -> None:

@@ -10,7 +10,7 @@ import numpy as np
 
 from ..model.modes import Modes
 from .audit import USUAL, Audit
-from .estimate import Estimate, estimate, larger, rounding_matters, with_rounding
+from .estimate import Estimate, estimate, larger, rounding_matters, says_more, with_rounding
 from .event import EventOccurrence
 from .hybrid import run_on
 from .integration import Flag
@@ -297,8 +297,23 @@ class Integrator:
             before, resolution = resolution, self.refinement.next(resolution, _excess(attempts[-1], self.tolerance))
             part = self.refinement.least_part(before, resolution)
             found, pieces = self.pair(resolution, self.refinement.finer(pieces, before, resolution), attempts[-1])
-            attempts.append(self._at_least(part, attempts[-1], found))
+            attempts.append(self._held_against(attempts[-1], self._at_least(part, attempts[-1], found)))
         return attempts
+
+    def _held_against(self, before: Attempt, found: Attempt) -> Attempt:
+        """The attempt, its answer held against the runs of the one before, too.
+
+        Where steps are still so long that errors change their sign from one size to the next, the two runs of a pair
+        may be wrong by about the same, and their difference says nothing of the error; a third one is not.
+        """
+        others = [each for each in before.runs if all(each is not own for own in found.runs)]
+        if not self.judge.is_constrained or self.modes is not None or not before.is_complete:
+            return found
+        for other in others:
+            factor, known = self.refinement.factor_across(other.steps, found.chosen.steps), found.estimate
+            if known is not None and says_more(self.judge, other, found.chosen, factor, known):
+                found = replace(found, estimate=larger(known, estimate(self.judge, other, found.chosen, factor)))
+        return found
 
     def _at_least(self, part: float, before: Attempt, found: Attempt) -> Attempt:
         """The attempt, its errors not smaller than that part of the ones before."""

@@ -34,6 +34,7 @@ OF_TERMS = 3.2e-15  # of the largest multiplier: rounding errors of the terms th
 CLOSE = 3e-14  # so much of a difference may be one of rounding errors, which are no smaller in the finer run
 MATTERS = 0.05  # of the estimate: rounding that could be more is looked at
 LINEAR = 0.1  # of the size of a coordinate: differences up to that are proportional to errors
+PROPORTIONAL = 0.02  # the same of a run that a much finer one is held against
 LOST = 0.5  # an error this large, relative to the size of the coordinate, leaves no digit
 UNKNOWN = 1e300  # for an error that is no number; with room for sums
 
@@ -87,6 +88,18 @@ def estimate(problem: Problem, coarse: Run, fine: Run, factor: float) -> Estimat
     spreads = _spread(factors * difference[: 2 * n] + np.minimum(difference[: 2 * n], CLOSE))
     reactions = _of_multipliers(problem, coarse, fine, spreads, factors)
     return Estimate(errors.max(axis=0), worst, horizon, of_event, stop, doubtful, reactions)
+
+
+def says_more(problem: Problem, coarse: Run, fine: Run, factor: float, known: Estimate) -> bool:
+    """Whether `factor` times the difference to a much coarser run is more than the error known, at some sample.
+
+    Not where that run is so far off that the errors of both may not be proportional.
+    """
+    count, n = min(len(coarse.times), len(fine.times), len(known.errors)), problem.degrees
+    states = fine.states[:count, :n].T
+    off = np.abs(coarse.states[:count, :n].T - states)
+    is_near = (off <= PROPORTIONAL * _sizes(problem, np.abs(states))).all() if count else False
+    return bool(is_near and (factor * off.max(axis=0) > known.errors[:count]).any())
 
 
 def larger(one: Estimate, other: Estimate) -> Estimate:

@@ -27,6 +27,7 @@ SHRINK = 2.15  # of adaptive steps from the coarser run of a pair to the finer
 OFTEN = 3.0  # times as many steps as the longest would be: then they are rarely the longest
 CLOSEST, FARTHEST_TOLERANCE = 10.0, 110.0  # between these the tolerances of a pair are apart
 MARGIN = 14.0  # how far errors may fall short of shrinking as the theory says
+ACROSS = 2.0  # the same from one attempt to a later one, between which chance evens out
 LEAST_PART = 0.3  # of how far tolerances are apart, where a run is compared with one before
 GRAIN = 1e-13  # below, rounding has its part in what a tolerance does
 FIRST, LAST = 0, -1  # runs of a pair, the coarser one first
@@ -56,6 +57,9 @@ class Refinement(Protocol):
 
     def factor_of_answer(self, coarse: Steps, fine: Steps) -> float:
         """What their difference is multiplied by to estimate the error of that one."""
+
+    def factor_across(self, coarse: Steps, fine: Steps) -> float:
+        """The same for a coarser run of an attempt before, which may be any number of times as coarse."""
 
     def can_compare(self, coarse: Run, fine: Steps) -> bool:
         """Whether a run and a finer one are far enough apart, but not too far, for an estimate."""
@@ -103,6 +107,9 @@ class ByTolerance:
 
     def factor_of_answer(self, coarse: Steps, fine: Steps) -> float:
         return min(MARGIN * fine.tolerance / coarse.tolerance, self.factor_of_coarse)
+
+    def factor_across(self, coarse: Steps, fine: Steps) -> float:
+        return min(ACROSS * fine.tolerance / coarse.tolerance, self.factor_of_coarse)
 
     def _apart(self, fine: float) -> float:
         """How many times the tolerance of the finer run the coarser one gets."""
@@ -167,6 +174,9 @@ class BySeries:
     def factor_of_answer(self, coarse: Steps, _fine: Steps) -> float:
         return AMONG_ROUNDING if coarse.tolerance < GRAIN_OF_SERIES else self.factor_of_coarse
 
+    def factor_across(self, coarse: Steps, fine: Steps) -> float:
+        return self.factor_of_answer(coarse, fine)
+
     @staticmethod
     def _told_apart(resolution: float) -> float:
         """The largest local tolerance up to that at which a nudge cannot hide what the steps do."""
@@ -220,7 +230,10 @@ class ByStep:
         return float(2.5 * FINER**self.sure / (FINER**self.sure - 1))
 
     def factor_of_answer(self, coarse: Steps, fine: Steps) -> float:
-        return float(max(0.03, 4.5 / (_ratio(coarse, fine) ** self.sure - 1)))
+        return float(max(0.03, self.factor_across(coarse, fine)))
+
+    def factor_across(self, coarse: Steps, fine: Steps) -> float:
+        return float(4.5 / (_ratio(coarse, fine) ** self.sure - 1))
 
     def can_compare(self, coarse: Run, fine: Steps) -> bool:
         steps = coarse.steps
