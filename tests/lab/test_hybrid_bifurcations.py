@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from scipy.integrate import solve_ivp
 from tests.simulation.scenes import document
 
 from deltaq.errors import InputError, Problem, RequestError
@@ -80,6 +81,44 @@ def test_an_oscillator_with_dry_friction_swings_as_far_as_den_hartog_has_it() ->
         v, u = 1.0 / (1.0 - beta**2), math.sin(math.pi / beta) / (beta * (1.0 + math.cos(math.pi / beta)))
         assert (one["status"], one["folds"]) == ("ok", 1)
         np.testing.assert_allclose(one["seen"], math.sqrt(v**2 - (0.2 * u) ** 2), rtol=1e-6)
+
+
+def test_a_hill_thinner_than_a_step_between_impacts_is_seen() -> None:
+    """A driven oscillator at a wall with a hill of width 0.005 on its way: what repeats does so by SciPy's small steps.
+
+    Without the hill, whole motions are others.
+    """
+    width, omega = 5e-3, 1.3
+    well = {"kind": "potential", "name": "well", "energy": f"k*x^2/2 + 0.3*exp(-((x - 0.3)/{width})^2)"}
+    push = {"kind": "force", "name": "push", "at": "p", "force": ["F*cos(omega*t)", "0"]}
+    drag = {"kind": "dissipation", "name": "drag", "function": "0.4*dot(x)^2"}
+    values = {"m": 1.0, "k": 1.0, "F": 1.0, "omega": omega}
+    scene = document({"x": (0.1, 0.0)}, values, {"p": ("m", ["x", "0"])}, [well, push, drag])
+    scene |= {"events": [{"name": "wall", "value": "x + 0.5", "then": "bounce", "restitution": "0.7"}]}
+    sweep = {"parameter": "F", "from": 0.95, "to": 1.05, "count": 8}
+    found = ask(scene=scene, sweep=sweep, skip=20, crossings=4, orbits=False)
+    told = [one for one in found["up"] if one["folds"] == 1]
+    assert len(told) >= 4
+    for one in told:
+
+        def rates(t: float, y: np.ndarray, drive: float = one["value"]) -> list[float]:
+            near = (y[0] - 0.3) / width
+            return [y[1], drive * math.cos(omega * t) - y[0] - 0.8 * y[1] + 0.6 / width * near * math.exp(-(near**2))]
+
+        def gap(_t: float, y: np.ndarray) -> float:
+            return float(y[0]) + 0.5
+
+        gap.terminal, gap.direction = True, -1  # type: ignore[attr-defined]
+        begin = [one["initial"]["x"]["value"], one["initial"]["x"]["rate"]]
+        t, state, impacts = 0.0, np.array(begin), 0
+        while t < math.tau / omega:
+            span, exact = (t, math.tau / omega), {"rtol": 1e-11, "atol": 1e-13, "max_step": 0.5 * width}
+            way = solve_ivp(rates, span, state, method="DOP853", events=gap, **exact)
+            t, state = float(way.t[-1]), way.y[:, -1]
+            if way.status == 1:
+                state, impacts = np.array([-0.5, -0.7 * state[1]]), impacts + 1
+        assert impacts == 1
+        np.testing.assert_allclose(state, begin, atol=1e-8)
 
 
 def test_what_lies_on_the_table_passes_it_nowhere() -> None:

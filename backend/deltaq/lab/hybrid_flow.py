@@ -13,15 +13,17 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from ..model.modes import Modes
+from ..simulation.audit import Audit
 from ..simulation.event import event_values
 from ..simulation.hybrid import run_on
 from ..simulation.kernels.motion import EVENT
 from ..simulation.library import get_method
-from ..simulation.march import Truths
+from ..simulation.march import SEEN, Truths
 from ..simulation.problem import Floats
 from ..simulation.run import Run, Steps
 from ..simulation.section import Surface
-from .flow import TOLERANCE, Flow, Image, Passed, Traced
+from ..simulation.watched import Watch
+from .flow import PARTS, TOLERANCE, Flow, Image, Passed, Traced
 from .hybrid_orbits import TOUCHING, crossings_of
 
 
@@ -81,8 +83,8 @@ class HybridFlow(Flow):
             if not self.admits(value, state[None, :])[0]:
                 continue
             run = self.run(value, state, times, tolerance)
-            seen = run.states[:, :width]
-            found.states[index, : len(seen)] = seen
+            states_of_run = run.states[np.isin(run.times, times), :width]
+            found.states[index, : len(states_of_run)] = states_of_run
             self.allowance.passed += len(run.transitions)
             found.outcomes[index], found.steps[index] = run.result.outcome, run.result.steps
         return found
@@ -108,7 +110,10 @@ class HybridFlow(Flow):
         return len(self.run(value, state, np.array([0.0, span])).transitions)
 
     def run(self, value: float, state: Floats, times: Floats, tolerance: float = TOLERANCE) -> Run:
-        """The motion from a state, shape (2n,), with samples at `times`, shape (times,), that begin with 0."""
+        """The motion from a state, shape (2n,), with samples at `times`, shape (times,), that begin with 0.
+
+        One that may have missed a force is followed again in parts, with samples at their ends, too.
+        """
         n = self.problem.degrees
         own = replace(
             self.at(value),
@@ -117,5 +122,9 @@ class HybridFlow(Flow):
             rates=tuple(state[n:].tolist()),
             t_end=float(times[-1]),
         )
-        steps = Steps(self.largest, tolerance, is_recorded=True)
-        return run_on(own, self.modes, get_method("taylor"), times, self.cancelled, steps)
+        taylor, steps = get_method("taylor"), Steps(self.largest, tolerance, is_recorded=True)
+        found = run_on(own, self.modes, taylor, times, self.cancelled, steps)
+        if not found.meshes or not Audit(found.meshes[0].problem, taylor).after_each(found.meshes, SEEN):
+            return found
+        watch = Watch(SEEN, PARTS * self.largest)
+        return run_on(own, self.modes, taylor, watch.divided(times), self.cancelled, steps, watch)

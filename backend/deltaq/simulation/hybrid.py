@@ -25,6 +25,7 @@ from .problem import Floats, Problem
 from .run import Mesh, Run, Steps, run
 from .sliding import SlidingError
 from .transitions import NoDirectionError, Transition, UnsettledError, begun, passed, with_offsets
+from .watched import Watch, mesh_of
 
 MOST = 5000  # events in one run
 AT_ONCE = 50  # events at the same time, by rounding
@@ -82,25 +83,23 @@ class _Record:
         self.evaluations += found.result.evaluations
         self.conditioning = min(self.conditioning, found.conditioning)
         self.wall_time += found.wall_time
-        self.meshes.append(_mesh(problem, found))
+        self.meshes.append(mesh_of(problem, found))
 
 
-def _mesh(problem: Problem, found: Run) -> Mesh:
-    """The mesh of a stretch up to the event that ended it."""
-    event, width = found.event, 2 * problem.degrees
-    times, states = found.mesh_times, found.mesh_states
-    if event is not None and times.size:
-        inside = times < event.time
-        times = np.append(times[inside], event.time)
-        states = np.vstack([states[inside], event.state[None, :width]])
-    return Mesh(problem, float(found.times[0]), times, states, found.stride)
-
-
-def run_on(problem: Problem, modes: Modes, method: Method, times: Floats, cancelled: Flag, steps: Steps) -> Run:
+def run_on(
+    problem: Problem,
+    modes: Modes,
+    method: Method,
+    times: Floats,
+    cancelled: Flag,
+    steps: Steps,
+    watch: Watch | None = None,
+) -> Run:
     """The run of a problem in modes, with samples at `times`, shape (samples,), as far as it comes.
 
-    One that is `shaken` has its rates moved by a little more than rounding does, at its start and behind each event:
-    impacts part neighbours, and two runs that round alike would know nothing of it.
+    With a `watch`, parts of it that may have missed a force are run again before it goes on behind them. One that is
+    `shaken` has its rates moved by a little more than rounding does, at its start and behind each event: impacts part
+    neighbours, and two runs that round alike would know nothing of it.
     """
     try:
         current = with_offsets(_shaken(begun(problem, modes), 0, steps.shaken))
@@ -112,8 +111,12 @@ def run_on(problem: Problem, modes: Modes, method: Method, times: Floats, cancel
     record.out[0, : 2 * problem.degrees] = problem.state[: 2 * problem.degrees]
     while True:
         stretch, ahead = _problem(current, record.steps), _ahead(times, current.time)
-        found = run(stretch, method, ahead, cancelled, _after(steps, current.time))
+        go = run if watch is None else watch.first_part
+        found = go(stretch, method, ahead, cancelled, _after(steps, current.time))
         record.add(stretch, found)
+        if (part := _end_of_part(current, found, times)) is not None:
+            current = part
+            continue
         if found.event is None or found.result.outcome in (STEP_LIMIT, OUT_OF_REACH):
             return _whole(record, times, found.result.outcome, float(found.result.reached), found)
         event = found.event
@@ -187,6 +190,14 @@ def _problem(current: ModeState, taken: int) -> Problem:
         rates=tuple(current.v.tolist()),
         step_limit=max(problem.step_limit - taken, 1),
     )
+
+
+def _end_of_part(current: ModeState, found: Run, times: Floats) -> ModeState | None:
+    """Where a run ended before the last of the times, shape (samples,), and without an event; None if it did not."""
+    if found.event is not None or found.result.outcome != FINE or found.times[-1] >= times[-1]:
+        return None
+    n, last = len(current.q), found.states[-1]
+    return current.at(float(found.times[-1]), last[:n].copy(), last[n : 2 * n].copy())
 
 
 def _ahead(times: Floats, start: float) -> Floats:

@@ -12,11 +12,11 @@ import numpy as np
 
 from .audit import Audit
 from .integration import Flag
-from .kernels.motion import FINE, STEP_UNDERFLOW
+from .kernels.motion import EVENT, FINE, STEP_UNDERFLOW
 from .method import Method
 from .pieces import Pieces, Stretch
 from .problem import Floats, Problem
-from .run import Run, Steps
+from .run import Mesh, Run, Steps
 from .run import run as run_once
 
 ROUNDS = 12  # of a part, each with shorter steps where the one before was blind
@@ -29,6 +29,40 @@ class Watched:
     states: Floats
     outcome: int
     steps: int
+
+
+@dataclass(frozen=True)
+class Watch:
+    """What moves coordinates by less than the `tolerance` may be missed; parts are about as long as `longest` seconds.
+
+    A part goes up to a sample, so that times are `divided` beforehand.
+    """
+
+    tolerance: float
+    longest: float
+
+    def divided(self, times: Floats) -> Floats:
+        """The times, shape (times,), ascending, with others between them so that no two are too far apart."""
+        counts = np.maximum(np.ceil(np.diff(times) / self.longest).astype(np.int64), 1).tolist()
+        spans = zip(times[:-1].tolist(), times[1:].tolist(), counts, strict=True)
+        return np.concatenate([*(np.linspace(start, end, count + 1)[:-1] for start, end, count in spans), times[-1:]])
+
+    def first_part(self, problem: Problem, method: Method, times: Floats, cancelled: Flag, steps: Steps) -> Run:
+        """A run up to the first of the times, shape (times,), that are so far, or to an event before."""
+        count = max(int(np.searchsorted(times, times[0] + self.longest, side="right")), 2)
+        found, blind = seen(problem, method, times[:count], steps, self.tolerance, cancelled, ROUNDS)
+        return replace(found, result=found.result._replace(outcome=STEP_UNDERFLOW), event=None) if blind else found
+
+
+def mesh_of(problem: Problem, found: Run) -> Mesh:
+    """The mesh of a run up to the event that ended it, if one did."""
+    event, width = found.event, 2 * problem.degrees
+    times, states = found.mesh_times, found.mesh_states
+    if event is not None and times.size:
+        inside = times < event.time
+        times = np.append(times[inside], event.time)
+        states = np.vstack([states[inside], event.state[None, :width]])
+    return Mesh(problem, float(found.times[0]), times, states, found.stride)
 
 
 def watched(
@@ -64,12 +98,13 @@ def seen(
     """A recorded run with samples at `times`, shape (times,), and where it is still blind after so many rounds.
 
     Each round has shorter steps where the one before could have passed over what moves coordinates by more than the
-    `tolerance`. A run that ends early is told as it is.
+    `tolerance`. A run that ends early, but by an event, is told as it is.
     """
     audit, pieces = Audit(problem, method), steps.pieces or Pieces.whole(float(times[-1]))
     for _ in range(rounds):
         found = run_once(problem, method, times, cancelled, replace(steps, pieces=pieces, is_recorded=True))
-        blind = audit.after(found, tolerance) if found.result.outcome == FINE else ()
+        is_done = found.result.outcome in (FINE, EVENT)
+        blind = audit.after_each((mesh_of(problem, found),), tolerance) if is_done else ()
         if not blind:
             break
         pieces = pieces.with_bounds([(each.start, each.end, each.step) for each in blind])
