@@ -51,6 +51,44 @@ def test_each_run_is_the_motion_alone(name: str) -> None:
         assert true.max() <= 1e-9
 
 
+@pytest.mark.parametrize("name", ["bouncing-ball", "catching-pendulum", "stick-slip", "string-pendulum"])
+def test_each_run_behind_events_is_the_motion_alone_at_the_same_times(name: str) -> None:
+    """Alone a motion tells its states at events, too; a run of an ensemble is told at its samples."""
+    problem = problem_of(load_scene(name), 6.0, 61)
+    ensemble = Ensemble(
+        problem, np.repeat([problem.state[: 2 * problem.degrees]], 3, axis=0), np.array([problem.parameters] * 3)
+    )
+    ensemble.states[:, -1] += [0.0, 0.01, 0.02]
+    found = run_ensemble(ensemble, 1e-9)
+    for index, outcome in enumerate(found.outcomes):
+        alone = simulate(ensemble.member(index), get_method("dop853"), tolerance=1e-9)
+        assert outcome.status == alone.outcome.status
+        reached = found.times[found.times <= alone.times[-1] + 1e-9]
+        same = [int(np.flatnonzero(np.abs(alone.times - time) < 1e-9)[-1]) for time in reached]
+        np.testing.assert_allclose(found.values[index, : len(same)], alone.values[same], atol=1e-7)
+        assert np.isnan(found.values[index, len(same) :]).all()
+        assert np.isfinite(found.errors[index, : len(same)]).all()
+
+
+def test_balls_of_an_ensemble_bounce_on_a_floor_as_they_do() -> None:
+    """From the height h the first fall takes τ = √(2h/g), each flight behind it e times as long as the one before."""
+    problem = problem_of(load_scene("bouncing-ball"), 3.0, 301)
+    names = problem.model.layout.parameters
+    values = dict(zip(names, problem.parameters, strict=True)) | {"a": 0.0}
+    heights = np.array([0.5, 0.8, 1.3])
+    starts = np.column_stack([heights, np.zeros(3)])
+    found = run_ensemble(Ensemble(problem, starts, np.array([[values[name] for name in names]] * 3)), 1e-9)
+    g, e = values["g"], values["e"]
+    for index, height in enumerate(heights):
+        fall = np.sqrt(2.0 * height / g)
+        ends = fall * np.concatenate([[-1.0, 1.0], 1.0 + 2.0 * np.cumsum(e ** np.arange(1, 40))])  # of flights
+        flight = np.searchsorted(ends, found.times, side="right") - 1
+        since = found.times - ends[flight]
+        true = e**flight * g * fall * since - 0.5 * g * since**2
+        rest = fall * (1.0 + 2.0 * e / (1.0 - e))
+        np.testing.assert_allclose(found.values[index, :, 0], np.where(found.times < rest, true, 0.0), atol=1e-8)
+
+
 @pytest.mark.parametrize("tolerance", [1e-5, 1e-8])
 def test_errors_told_cover_the_true_ones_and_are_not_far_from_them(tolerance: float) -> None:
     """ẍ = −sin x from 0 with the rate u is x = 2 asin(k sn(t, k)), k = u/2 < 1."""

@@ -52,6 +52,7 @@ NEAR, MANY = 5, 1000  # the order of neighbours' series, and the steps up to whi
 # of many with two runs each, some come close to each other by chance.
 BELOW, OF_PAIRS = 1e-2, 2.0
 MOST_DRIVEN = 20_000  # steps that a drive may ask for, up to which motions go side by side
+SAME = 1e-12  # of the span: times that are nearer to each other are one
 MESH = 256  # ends of steps of each motion that are looked at together
 GRAIN = 5e-12  # below that local tolerance rounding may do as much as the steps, and the one hide the other
 
@@ -439,10 +440,11 @@ def _one_by_one(
     worst, steps, outcomes = np.zeros(count), np.zeros(count, dtype=np.int64), list[Outcome]()
     for index in range(count):
         found = simulate(ensemble.member(index), get_method("taylor"), tolerance=tolerance, cancelled=flag)
-        rows = min(int(np.searchsorted(times, found.times[-1] * (1.0 + 1e-12), side="right")), len(found.times))
-        values[index, :rows], rates[index, :rows] = found.values[:rows], found.rates[:rows]
+        here, there = _at_samples(found.times, times)
+        values[index, there], rates[index, there] = found.values[here], found.rates[here]
         if found.estimate is not None:
-            errors[index, :rows] = found.estimate.errors[:rows, None]  # the largest of any coordinate
+            known = here < len(found.estimate.errors)
+            errors[index, there[known]] = found.estimate.errors[here[known], None]  # the largest of any coordinate
         is_judged = found.estimate is not None and found.outcome.is_judged
         worst[index] = found.estimate.worst if found.estimate is not None and is_judged else np.nan
         steps[index] = found.cost.steps
@@ -451,3 +453,15 @@ def _one_by_one(
         tell(index + 1)
     blind = np.zeros(count, dtype=np.bool_)
     return EnsembleMotion(times, values, rates, errors, worst, steps, tuple(outcomes), blind)
+
+
+def _at_samples(found: Floats, times: Floats) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
+    """Which of the times of a motion, shape (rows,), are at which of the samples, shape (samples,).
+
+    A motion that goes on behind events has their times among its own, each twice; of a sample at one, what is behind it
+    counts.
+    """
+    room = SAME * float(times[-1])
+    places = np.searchsorted(found, times + room, side="right") - 1
+    there = np.flatnonzero(np.abs(found[places] - times) <= room)
+    return places[there], there
