@@ -137,6 +137,21 @@ async def test_patience_has_an_end(make_pool: MakePool) -> None:
 
 
 @pytest.mark.anyio
+async def test_who_is_told_how_many_there_are_waits_for_as_long_as_they_are_compiled(make_pool: MakePool) -> None:
+    pool, kernels, told = make_pool(), Kernels(SLEEP, ECHO, timeout=0.05), list[tuple[int, int]]()
+    compiling = asyncio.create_task(kernels.compile(pool, pool, workers=1))
+    await asyncio.sleep(0)
+    waiting = asyncio.create_task(kernels.wait("gauss-4", tell=lambda here, all_: told.append((here, all_))))
+    await asyncio.sleep(0.3)  # six times the patience of who is not told
+    assert not waiting.done()
+    assert told[0] == (0, len(list(declared())))
+    for task in (waiting, compiling):
+        task.cancel()
+        with pytest.raises(asyncio.CancelledError):
+            await task
+
+
+@pytest.mark.anyio
 async def test_an_unknown_method_is_not_waited_for() -> None:
     with pytest.raises(UnknownNameError) as caught:
         await Kernels().wait("rk5")

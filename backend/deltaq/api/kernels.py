@@ -29,7 +29,7 @@ Tell = Callable[[int, int], object]  # how many kernels there are, and how many 
 class Kernels:
     """The kernels of each group, a family of methods or the lanes of ensembles: compiled by the jobs named.
 
-    They are waited for `timeout` seconds at most.
+    They are waited for `timeout` seconds at most, by who is not told how many there are.
     """
 
     warm: Job = WARM
@@ -85,16 +85,17 @@ class Kernels:
             raise Preparing(LATE) from None
         return here
 
-    async def wait(self, *methods: str, tell: Tell = lambda _here, _all: None) -> None:
+    async def wait(self, *methods: str, tell: Tell | None = None) -> None:
         """Until the kernels of these methods (or ensembles) are there, all if none is named.
 
-        Where they are not there yet, `tell` hears at once and every second how many of all kernels are. Raises
-        Preparing if that takes too long, UnknownNameError for a method that does not exist.
+        Where they are not there yet, `tell` hears at once and every second how many of all kernels are, for as long as
+        they are being compiled: the deadlines of those jobs are the end of it. Raises Preparing if nobody is told and
+        that takes too long, UnknownNameError for a method that does not exist.
         """
         wanted = {_group_of(method) for method in methods}
         self._wanted.update(wanted)
         try:
-            async with asyncio.timeout(self.timeout):
+            async with asyncio.timeout(self.timeout if tell is None else None):
                 for family in wanted or kernel_groups():
                     if family in self._compiled:
                         await _come(self._compiled[family], tell)
@@ -102,7 +103,10 @@ class Kernels:
             raise Preparing(LATE) from None
 
 
-async def _come(compiled: asyncio.Event, tell: Tell) -> None:
+async def _come(compiled: asyncio.Event, tell: Tell | None) -> None:
+    if tell is None:
+        await compiled.wait()
+        return
     while not compiled.is_set():
         tell(await asyncio.to_thread(_count), await asyncio.to_thread(lambda: len(list(declared()))))
         with suppress(TimeoutError):
