@@ -290,7 +290,7 @@ def test_a_client_of_a_new_machine_hears_that_kernels_are_compiled(
 
 
 async def test_a_silent_stream_is_kept_alive(client: httpx.AsyncClient, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(streams, "LONGEST_SILENCE", 0.05)
+    monkeypatch.setattr(streams, "LONGEST_SILENCE", 0.002)
     few = {"vary": {"initial.x.value": {"from": 0.5, "to": 2.0, "count": 40}}, "t_end": 20.0}
     async with client.stream("POST", ADDRESS, json=PENDULUMS | JUMPS | few, headers=STREAM) as response:
         text = b"".join([part async for part in response.aiter_raw()]).decode()
