@@ -252,3 +252,18 @@ def test_an_endless_event_is_told_by_its_beginning(length: int) -> None:
         run({"scene": document, "t_end": 0.1})
     (problem,) = caught.value.problems
     assert problem.parameters["value"] == value[:80]
+
+
+@pytest.mark.parametrize("width", [0.1, 1e-2, 1e-4, 1e-5])
+@pytest.mark.parametrize("door", ["x - 1.2345", "t - 1.2345"])
+@pytest.mark.parametrize("method", ["auto", "dop853", "radau-5", "taylor"])
+def test_a_value_that_dips_below_zero_for_less_than_a_step_ends_a_motion(door: str, width: float, method: str) -> None:
+    """1 − 2 exp(−z²) is 0 at z = −√ln 2 first, where x = t; one that leaves a hundredth ends nothing."""
+    for depth, status in ((2.0, "event"), (0.99, "ok")):
+        scene = write_scene(oscillator("0", x=0.0, u=1.0))
+        scene["parameters"].append({"name": "w", "value": width})
+        events = [{"name": "door", "value": f"1 - {depth}*exp(-(({door})/w)^2)"}]
+        found = run({"scene": scene | {"events": events}, "t_end": 2.2, "method": method, "tolerance": 1e-6})
+        assert found["status"] == status
+        if status == "event":
+            assert found["event"]["t"] == pytest.approx(1.2345 - width * np.sqrt(np.log(2.0)), abs=1e-9)

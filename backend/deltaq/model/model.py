@@ -103,9 +103,18 @@ class Model:
     @cached_property
     def tape(self) -> Tape:
         """The operations of M and f, of the values of guided coordinates and of their rates, of A and γ."""
-        eqs, held = self.eqs, self.eqs.constraints
-        outputs = [*_triangle(eqs), *eqs.forcing, *_guided(eqs), *_rows(held), *held.accelerations]
-        return tape_of(eqs.symbols.inputs, outputs)
+        return tape_of(self.eqs.symbols.inputs, _of_tape(self.eqs))
+
+    @cached_property
+    def audited(self) -> Tape:
+        """The same, and behind them the values of events that end motions, which are to be seen as well as forces."""
+        values = [self.eqs.events[index] for index in self.ending]
+        return tape_of(self.eqs.symbols.inputs, [*_of_tape(self.eqs), *values]) if values else self.tape
+
+    @cached_property
+    def ending(self) -> tuple[int, ...]:
+        """The events that end its motions, by number; none of a model in modes, whose events are others."""
+        return () if self.is_in_modes else tuple(i for i, each in enumerate(self.scene.events) if not each.bounces)
 
     @cached_property
     def thorough(self) -> Compiled:
@@ -281,6 +290,12 @@ def _missed(eqs: Equations, effort: int) -> Compiled | None:
     """What `Model.gaps` computes."""
     held = eqs.constraints
     return compile_expressions(eqs.symbols.inputs, [*held.gaps, *held.slips], effort) if held.slips else None
+
+
+def _of_tape(eqs: Equations) -> list[Expr]:
+    """M and f, values of guided coordinates and their rates, A and γ."""
+    held = eqs.constraints
+    return [*_triangle(eqs), *eqs.forcing, *_guided(eqs), *_rows(held), *held.accelerations]
 
 
 def of_motion(eqs: Equations) -> list[Expr]:

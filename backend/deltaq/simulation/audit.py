@@ -16,6 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..model.tape import Tape
+from .event import event_values
 from .kernels.audit import DEEPEST, GROUP, AuditWorkspace, Blind, Path, Rules, inspect, survey_times
 from .kernels.intervals import Ranges, TapeArrays
 from .kernels.sight import Boxes, Meshes, Room, Slopes, find_blind, find_unsure
@@ -119,8 +120,10 @@ class Audit:
         if not paths:
             return ()
         rows = [each.problem.inputs(each.mesh_times[:-1:GROUP], each.mesh_states[:-1:GROUP]) for each, _ in paths]
-        seeds = np.split(self.seeds(np.vstack(rows)), np.cumsum([len(each) for each in rows])[:-1])
         threshold, ranges, width = self.threshold(tolerance), self._ranges_of(), 2 * self.problem.degrees + 1
+        values = np.vstack([self._nearest(mesh) for mesh, _ in paths])
+        all_seeds = self.seeds(np.vstack(rows), threshold, values)
+        seeds = np.split(all_seeds, np.cumsum([len(each) for each in rows])[:-1])
         workspace, blind, spare = _make_workspace(self.tape_arrays.codes.size), _make_blind(), np.zeros((2, width))
         found: list[Stretch] = []
         for (mesh, path), own, row in zip(paths, seeds, rows, strict=True):
@@ -168,7 +171,16 @@ class Audit:
 
     @cached_property
     def _tape(self) -> Tape:
-        return self.problem.model.tape
+        return self.problem.model.audited
+
+    def _nearest(self, mesh: Mesh) -> Floats:
+        """The least value of each event that ends motions in each GROUP of steps of a mesh: shape (groups, events)."""
+        starts = np.arange(0, len(mesh.mesh_times) - 1, GROUP)
+        ending = list(self.problem.model.ending)
+        if not ending:
+            return np.ones((len(starts), 0))
+        values = event_values(mesh.problem, mesh.mesh_times, mesh.mesh_states)[:-1, ending]
+        return np.asarray(np.minimum.reduceat(np.where(values > 0.0, values, np.inf), starts, axis=0))
 
     @property
     def tape_has_choices(self) -> bool:
@@ -191,10 +203,12 @@ class Audit:
         operations, outputs = self._tape.codes.size, self._tape.outputs.size
         return Ranges(inputs.copy(), inputs.copy(), *_columns(operations), np.zeros(outputs))
 
-    def seeds(self, rows: Floats) -> Floats:
+    def seeds(self, rows: Floats, threshold: float = 0.0, values: Floats | None = None) -> Floats:
         """Bounds of how q̈ moves with each output of the tape at rows (q, q̇, t, parameters), |q| above 1 counted as 1.
 
-        Guides count as they move. `rows` has shape (rows, inputs); returns shape (rows, outputs of the tape).
+        Guides count as they move, events by what is left of their `values`, shape (rows, events): what could take all
+        of it counts as much as a force at the threshold. `rows` has shape (rows, inputs); returns shape (rows, outputs
+        of the tape).
         """
         model, n = self.problem.model, self.problem.degrees
         table = model.motion.table(rows)
@@ -202,7 +216,9 @@ class Audit:
             model.layout, table, np.maximum(1.0, np.abs(rows[:, :n])), self.problem.rank
         )
         guides = np.repeat([[self._per_span * self._per_span, self._per_span]], len(model.layout.guided), axis=1)
-        found = np.hstack([of_motion, np.repeat(guides, len(rows), axis=0), of_constraints])
+        with np.errstate(divide="ignore"):
+            of_events = np.zeros((len(rows), len(model.ending))) if values is None else threshold / values
+        found = np.hstack([of_motion, np.repeat(guides, len(rows), axis=0), of_constraints, of_events])
         return np.asarray(np.nan_to_num(found, nan=np.finfo(float).max, posinf=np.finfo(float).max))
 
     def _leaves(self, threshold: float) -> list[tuple[float, float, float]]:
@@ -212,7 +228,9 @@ class Audit:
         own, so that steps end there.
         """
         start = self.problem.inputs(np.zeros(1), self.problem.state[None, :])
-        self._ranges.seeds[:] = self.seeds(start)[0]
+        ending = list(self.problem.model.ending)
+        values = event_values(self.problem, np.zeros(1), self.problem.state[None, :])[:, ending]
+        self._ranges.seeds[:] = self.seeds(start, threshold, np.maximum(values, np.finfo(float).tiny))[0]
         leaves: list[tuple[float, float, float]] = []
         level = Level(np.zeros(1), np.array([self.problem.t_end]), np.zeros(1, dtype=np.bool_))
         for depth in range(LEVELS):
