@@ -182,10 +182,10 @@ def test_experiment_stops_when_the_last_who_hears_it_has_gone(patient: Served) -
     address = f"{patient.address}api/v1/experiments/work-precision"
     with httpx.stream("POST", address, json=question, headers=stream, timeout=PATIENCE) as first:
         heard = first.iter_lines()  # whose end would be that of the connection
-        assert next(heard) == "event: part"
+        assert "event: part" in heard  # behind comments, while nothing else is told
         with httpx.stream("POST", address, json=question, headers=stream, timeout=PATIENCE) as second:
             heard_too = second.iter_lines()
-            assert next(heard_too) == "event: part"
+            assert "event: part" in heard_too
         time.sleep(1.5)
         assert measuring(patient)
     end = time.monotonic() + PATIENCE / 8
