@@ -1,4 +1,4 @@
-"""Where a run would be blind, and where it was: what the forces do between the places that a method looks at.
+"""Where a run would be blind, and where it was: what forces, and events, do between the places that a method looks at.
 
 Two runs that agree prove nothing where both miss the same thing: a pulse between their stages, a drive in step with
 their steps. So the model's own operations are bounded by intervals, before a run over the time alone, and after it
@@ -92,7 +92,7 @@ class Audit:
         return min(LARGEST_SWING, PER_GAP / largest_gap(self.method))
 
     def before(self, tolerance: float) -> Pieces:
-        """The span in pieces, each with the largest step that resolves how the forces depend on time alone."""
+        """The span in pieces, each with the largest step that resolves how forces and events depend on time alone."""
         end = self.problem.t_end
         if not self._tape.uses(2 * self.problem.degrees):
             return Pieces((end,), (end,))
