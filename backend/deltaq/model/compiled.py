@@ -55,7 +55,7 @@ class Compiled:
         The same numbers as `table` has, without its detours: behind an event there are many such rows, one by one.
         """
         values, (address, data) = np.empty(self.outputs), self.addresses
-        _function_at(address)(_place(values), _place(row), data)
+        _function_at(address)(_numbers(self.outputs).from_buffer(values), _numbers(self.inputs).from_buffer(row), data)
         return values
 
 
@@ -64,9 +64,10 @@ def _function_at(address: int) -> Any:
     return ctypes.PYFUNCTYPE(None, ctypes.c_void_p, ctypes.c_void_p, ctypes.c_void_p)(address)
 
 
-def _place(numbers: Floats) -> int:
-    """Where an array stands in memory; `ndarray.ctypes` takes longer than most models."""
-    return int(numbers.__array_interface__["data"][0])
+@lru_cache(maxsize=256)
+def _numbers(count: int) -> Any:
+    """So many numbers as C has them; where they are an array's own, they are had sooner than its address."""
+    return ctypes.c_double * count
 
 
 def compile_expressions(inputs: Sequence[Expr], outputs: Sequence[Expr], effort: int = QUICK) -> Compiled:

@@ -17,7 +17,7 @@ class LinearSystem:
     """M q̈ = f + Aᵀλ, A q̈ = γ at each of some states, for n coordinates and m constraints.
 
     `mass` (M) has shape (states, n, n), `forces` (f) shape (states, n), `rows` (A) shape (states, m, n) and `bends` (γ)
-    shape (states, m).
+    shape (states, m); of a single state they have no axis of states.
     """
 
     mass: Floats
@@ -27,14 +27,12 @@ class LinearSystem:
 
 
 def linear_system(layout: Layout, table: Floats) -> LinearSystem:
-    """The system of each row of `table`, shape (states, outputs): what `Model.motion` gives."""
-    n, m, states = layout.degrees, len(layout.multipliers), len(table)
-    places = _places(n)
-    size = n * (n + 1) // 2
+    """The system of each row of `table`, shape (states, outputs), or of one of shape (outputs,): see `Model.motion`."""
+    n, m, size = layout.degrees, len(layout.multipliers), layout.degrees * (layout.degrees + 1) // 2
     first = size + n + (n + 1 if layout.is_powered else 0)
-    rows = table[:, first : first + m * n].reshape(states, m, n)
-    bends = table[:, first + m * n : first + m * n + m]
-    return LinearSystem(table[:, places], table[:, size : size + n], rows, bends)
+    rows = table[..., first : first + m * n].reshape(*table.shape[:-1], m, n)
+    bends = table[..., first + m * n : first + m * n + m]
+    return LinearSystem(table[..., _places(n)], table[..., size : size + n], rows, bends)
 
 
 @lru_cache(maxsize=64)

@@ -97,8 +97,8 @@ class Model:
         return linear_system(self.layout, self.motion.table(inputs))
 
     def system_at(self, row: Floats) -> LinearSystem:
-        """The same at one state, from its inputs as a row of shape (inputs,)."""
-        return linear_system(self.layout, self.motion.at(row)[None, :])
+        """The same at one state, without an axis of states, from its inputs as a row of shape (inputs,)."""
+        return linear_system(self.layout, self.motion.at(row))
 
     @cached_property
     def tape(self) -> Tape:

@@ -96,6 +96,12 @@ class Modes:
         """How many values are watched."""
         return len(self.ending) + len(self.kinks) + 2 * self.bounded + len(self.contacts)
 
+    @cached_property
+    def watches_time(self) -> bool:
+        """Whether a watched value changes with the time while the motion rests: of a table that is moved, say."""
+        eqs = self.model.eqs
+        return any(eqs.symbols.time in each.free_symbols for each in eqs.events)
+
     def name_of(self, row: int) -> str:
         """The name of a friction, or a switch as the language of scenes has it."""
         return (*self.frictions, *self.switches)[row]

@@ -32,23 +32,23 @@ class Mode(NamedTuple):
 
 
 class Facts(NamedTuple):
-    """What is known at a state.
+    """What is known at a state: vectors as arrays, single numbers as those of Python, which are quicker one by one.
 
     Of the rows `a` and the directions of their reactions `along`, shape (rows, n) each, the rates `w`, γ in `bias`, and
-    λ in `reactions`, shape (rows,) each; F₀ in `limits`, shape (frictions and switches,); `gaps` and e in
-    `restitutions`, shape (contacts,); values of `kinks`, shape (kinks,), and of `pins`, shape (pins,).
+    λ in `reactions`; F₀ of frictions and switches in `limits`; of contacts `gaps`, and e in `restitutions`; values of
+    `kinks` and of `pins`.
     """
 
     a: Floats
     along: Floats
-    w: Floats
-    bias: Floats
-    limits: Floats
-    gaps: Floats
-    restitutions: Floats
-    kinks: Floats
-    pins: Floats
-    reactions: Floats
+    w: list[float]
+    bias: list[float]
+    limits: list[float]
+    gaps: list[float]
+    restitutions: list[float]
+    kinks: list[float]
+    pins: list[float]
+    reactions: list[float]
 
 
 @dataclass(frozen=True)
@@ -77,15 +77,17 @@ class ModeState:
     def facts(self) -> Facts:
         """The rows with the flags of the mode."""
         n, modes, found = len(self.q), self.modes, self.modes.facts.at(self.row)
-        rows, bounded = modes.rows, modes.bounded
-        first = rows * (2 * n + 2)
-        parts, end = found[:first].reshape(rows, 2 * n + 2), first + bounded + 3 * len(modes.contacts)
-        gaps = found[first + bounded : end].reshape(-1, 3)
-        pins = end + len(modes.kinks)
-        last = pins + modes.pins
+        numbers, rows, step = found.tolist(), modes.rows, 2 * n + 2
+        limits = rows * step
+        gaps = limits + modes.bounded
+        kinks = gaps + 3 * len(modes.contacts)
+        pins = kinks + len(modes.kinks)
+        reactions = pins + modes.pins
+        vectors = found[:limits].reshape(rows, step)
         return Facts(
-            parts[:, :n], parts[:, n + 2 :], parts[:, n], parts[:, n + 1], found[first : first + bounded],
-            gaps[:, 0], gaps[:, 2], found[end:pins], found[pins:last], found[last : last + rows],
+            vectors[:, :n], vectors[:, n + 2 :], numbers[n:limits:step], numbers[n + 1 : limits : step],
+            numbers[limits:gaps], numbers[gaps:kinks:3], numbers[gaps + 2 : kinks : 3],
+            numbers[kinks:pins], numbers[pins:reactions], numbers[reactions : reactions + rows],
         )  # fmt: skip
 
     @cached_property
@@ -96,12 +98,12 @@ class ModeState:
     @property
     def mass(self) -> Floats:
         """M, shape (n, n)."""
-        return np.asarray(self._system.mass[0])
+        return self._system.mass
 
     @property
     def kept(self) -> tuple[Floats, Floats]:
         """A, shape (m, n), and γ, shape (m,), of the scene's constraints."""
-        return np.asarray(self._system.rows[0]), np.asarray(self._system.bends[0])
+        return self._system.rows, self._system.bends
 
     def moved_by(self, forces: Floats, bends: Floats | None = None) -> Floats:
         """x of M x = forces + Aᵀλ, A x = bends (0 if not given): what forces, or impulses, do to q̈, or to q̇.
@@ -122,13 +124,13 @@ class ModeState:
     @cached_property
     def accelerations(self) -> Floats:
         """q̈ in this mode, shape (n,)."""
-        return self.moved_by(self._system.forces[0], self._system.bends[0])
+        return self.moved_by(self._system.forces, self._system.bends)
 
     @property
     def touching(self) -> list[int]:
         """The contacts that are closed, but for rounding."""
         size = TOUCHING * size_of(self.q)
-        return [j for j, gap in enumerate(self.facts.gaps.tolist()) if gap <= self.scale(j) * size]
+        return [j for j, gap in enumerate(self.facts.gaps) if gap <= self.scale(j) * size]
 
     def scale(self, contact: int) -> float:
         """How far a gap changes with the coordinates, at most; 1 where it does not."""

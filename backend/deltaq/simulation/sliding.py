@@ -10,6 +10,7 @@ Complementarity Problem, §3.3 (matrices whose principal minors are positive).
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from itertools import combinations, product
 
@@ -71,7 +72,7 @@ def unkept(current: ModeState, held: Sequence[bool]) -> int | None:
     first, facts = len(current.modes.frictions), current.facts
     for row in range(first, current.modes.bounded):
         if held[row] and not (
-            np.isfinite(facts.reactions[row]) and (draws(current, row) or facts.reactions[row] == 0.0)
+            math.isfinite(facts.reactions[row]) and (draws(current, row) or facts.reactions[row] == 0.0)
         ):
             return row
     return None
@@ -111,7 +112,7 @@ def _is_consistent(current: ModeState, at_zero: Sequence[int]) -> bool:
     """Whether what is held is within its bounds, and what is not leaves to its side, or stays."""
     facts = current.facts
     for row in at_zero:
-        reaction, limit = float(facts.reactions[row]), float(facts.limits[row])
+        reaction, limit = facts.reactions[row], facts.limits[row]
         if current.mode.flags[row]:
             if not abs(reaction) <= limit * (1.0 + SLACK):
                 return False
@@ -123,7 +124,7 @@ def _is_consistent(current: ModeState, at_zero: Sequence[int]) -> bool:
 def _jump(current: ModeState, row: int) -> float:
     """How much of ẇ there is to compare with."""
     facts = current.facts
-    return abs(float(facts.a[row] @ current.moved_by(facts.along[row]))) + abs(float(facts.bias[row]))
+    return abs(float(facts.a[row] @ current.moved_by(facts.along[row]))) + abs(facts.bias[row])
 
 
 def _is_unique(current: ModeState, held: Sequence[int]) -> bool:

@@ -101,7 +101,7 @@ def passed(current: ModeState, watched: int) -> ModeEvent:
     modes, ending, mode = current.modes, len(current.modes.ending), current.mode
     place = watched - ending
     if place < len(modes.kinks):
-        contact = _contact_before(current, lambda facts: float(facts.kinks[place]), mode.kinks[place])
+        contact = _contact_before(current, lambda facts: facts.kinks[place], mode.kinks[place])
         if contact is not None and not mode.flags[modes.bounded + contact]:
             return _met(current, contact)
         kinks = tuple(-sign if k == place else sign for k, sign in enumerate(mode.kinks))
@@ -124,7 +124,7 @@ def _come_or_gone(current: ModeState, row: int) -> ModeEvent:
     if row >= modes.first_pin:
         return _pinned(current, row, name)
     sign = current.mode.slips[row]
-    stopped = _at_zero(current, sign * float(current.facts.w[row]), sign * rate_of(current, row), 0.0)
+    stopped = _at_zero(current, sign * current.facts.w[row], sign * rate_of(current, row), 0.0)
     found = _resolved(_without_rate(stopped, row), frozenset(), None, row)
     if found.mode.flags[row]:
         return found, name, "slide" if is_switch else "stick"
@@ -135,11 +135,11 @@ def _pinned(current: ModeState, row: int, name: str) -> ModeEvent:
     """The state behind a kink of places at which a force jumps: at rest in it, or behind it."""
     modes, sign = current.modes, current.mode.slips[row]
     pin = row - modes.first_pin
-    contact = _contact_before(current, lambda facts: float(facts.pins[pin]), sign)
+    contact = _contact_before(current, lambda facts: facts.pins[pin], sign)
     if contact is not None and not current.mode.flags[modes.bounded + contact]:
         return _met(current, contact)
     if _lies_in(current, row):
-        still = current.pushed(row, -float(current.facts.w[row]))
+        still = current.pushed(row, -current.facts.w[row])
         found = _resolved(still, frozenset(), None, row)
         return (found, name, "slide") if found.mode.flags[row] else (found, "", "switch")
     return _resolved(on_side(current, row, -sign), frozenset(), None), "", "switch"
@@ -148,7 +148,7 @@ def _pinned(current: ModeState, row: int, name: str) -> ModeEvent:
 def _lies_in(current: ModeState, row: int) -> bool:
     """Whether forces on both sides drive a motion back to a kink, and it goes off it by less than can be told."""
     behind = on_side(current, row, -current.mode.slips[row])
-    rate, pull = float(current.facts.w[row]), -float(np.sign(current.facts.w[row])) * rate_of(behind, row)
+    rate, pull = current.facts.w[row], -float(np.sign(current.facts.w[row])) * rate_of(behind, row)
     slope = float(np.abs(current.facts.a[row]).max())
     return bool(
         draws(current, row) and pull > 0.0 and rate * rate / (2.0 * pull) <= OFF_KINK * slope * size_of(current.q)
@@ -160,7 +160,7 @@ def _without_rate(current: ModeState, row: int) -> ModeState:
     along = current.facts.a[row]
     if not along @ current.moved_by(along) > 0.0:
         return current
-    pushed = current.pushed(row, -float(current.facts.w[row]))
+    pushed = current.pushed(row, -current.facts.w[row])
     return pushed if np.abs(pushed.v - current.v).max() <= TINY * size_of(current.v) else current
 
 
@@ -201,8 +201,8 @@ def _closed(current: ModeState, contact: int) -> ModeState:
     """
     facts, row = current.facts, current.modes.bounded + contact
     bend = float(facts.a[row] @ current.accelerations + facts.bias[row])
-    found = _at_zero(current, float(facts.gaps[contact]), float(facts.w[row]), bend)
-    gap, along = float(found.facts.gaps[contact]), found.moved_by(found.facts.a[row])
+    found = _at_zero(current, facts.gaps[contact], facts.w[row], bend)
+    gap, along = found.facts.gaps[contact], found.moved_by(found.facts.a[row])
     lift = float(found.facts.a[row] @ along)
     if not (-TOUCHING * found.scale(contact) * size_of(found.q) <= gap < 0.0 and lift > 0.0):
         return found
@@ -233,11 +233,11 @@ def _after_impacts(current: ModeState, first: int) -> ModeState:
     for j in touching:
         _require_direction(free, j)
     for _ in range(MOST_IMPACTS):
-        rates = {j: float(free.facts.w[first_row + j]) for j in touching}
+        rates = {j: free.facts.w[first_row + j] for j in touching}
         j = min(rates, key=lambda each: rates[each] / free.scale(each))
         if rates[j] >= -STILL * free.scale(j) * size_of(free.v):
             return free.within(current.mode)
-        e = 0.0 if _rests(free, first_row + j, j) else float(free.facts.restitutions[j])
+        e = 0.0 if _rests(free, first_row + j, j) else free.facts.restitutions[j]
         free = free.pushed(first_row + j, -(1.0 + e) * rates[j])
     raise UnsettledError
 
@@ -252,8 +252,8 @@ def _require_direction(current: ModeState, contact: int) -> None:
 def _rests(current: ModeState, row: int, contact: int) -> bool:
     """Whether the rebound would be lower than can be told from rest: it loses 1 − e² of what rounding lifts it by."""
     facts = current.facts
-    e = float(facts.restitutions[contact])
-    rebound = e * float(facts.w[row])
+    e = facts.restitutions[contact]
+    rebound = e * facts.w[row]
     pull = -float(facts.a[row] @ current.accelerations + facts.bias[row])
     if not pull > 0.0:
         return False
@@ -304,16 +304,16 @@ def _at_rest(current: ModeState, closed: frozenset[int], released: int | None, c
     """By row, whether it may be held: what slips does not, and contacts that touch and do not open."""
     modes, facts, size, touching = current.modes, current.facts, size_of(current.v), current.touching
     held = [
-        abs(float(facts.w[row])) <= HARDLY * size or row == come or bool(current.mode.flags[row])
+        abs(facts.w[row]) <= HARDLY * size or row == come or bool(current.mode.flags[row])
         for row in range(modes.bounded)
     ]
     for row in range(modes.first_pin, modes.bounded):
         slope = float(np.abs(facts.a[row]).max())
-        held[row] &= abs(float(facts.pins[row - modes.first_pin])) <= ROUNDING * slope * size_of(current.q)
+        held[row] &= abs(facts.pins[row - modes.first_pin]) <= ROUNDING * slope * size_of(current.q)
     for j in range(len(modes.contacts)):
         row = modes.bounded + j
         touches = j in closed or current.mode.flags[row] or j in touching
-        held.append(bool(touches and abs(float(facts.w[row])) <= 10.0 * STILL * current.scale(j) * size))
+        held.append(bool(touches and abs(facts.w[row]) <= 10.0 * STILL * current.scale(j) * size))
     if released is not None:
         held[released] = False
     return held
@@ -359,9 +359,17 @@ def _lost(current: ModeState, held: list[bool]) -> int | None:
     if lost is not None:
         return lost
     for k in range(bounded):
-        if held[k] and abs(float(facts.reactions[k])) > float(facts.limits[k]) * (1.0 + SLACK):
+        if held[k] and abs(facts.reactions[k]) > facts.limits[k] * (1.0 + SLACK):
             return k
     return next((row for row in range(bounded, current.modes.rows) if held[row] and facts.reactions[row] <= 0.0), None)
+
+
+def _moved_by_time(current: ModeState) -> list[float]:
+    """By watched value, how far it moves while the time goes on by what rounding does to it."""
+    if not current.modes.watches_time:
+        return [0.0] * current.modes.watched
+    later = current.at(current.time + TICKS * math.ulp(current.time), current.q, current.v)
+    return [abs(there - here) for there, here in zip(later.watched.tolist(), current.watched.tolist(), strict=True)]
 
 
 def with_offsets(current: ModeState) -> ModeState:
@@ -371,8 +379,7 @@ def with_offsets(current: ModeState) -> ModeState:
     """
     modes, mode = current.modes, current.mode
     plain = current if not any(mode.offsets) else current.within(mode._replace(offsets=(0.0,) * modes.watched))
-    later = plain.at(plain.time + TICKS * math.ulp(plain.time), plain.q, plain.v)
-    values, moved = plain.watched.tolist(), np.abs(later.watched - plain.watched).tolist()
+    values, moved = plain.watched.tolist(), _moved_by_time(plain)
     ending = len(modes.ending)
     first = ending + len(modes.kinks)
     pins, last = first + 2 * modes.first_pin, first + 2 * modes.bounded
