@@ -116,17 +116,17 @@ class Audit:
 
     def after_each(self, meshes: Sequence[Mesh], tolerance: float) -> tuple[Stretch, ...]:
         """The same of a run that went on behind events, each mesh in its mode: a problem with other parameters."""
-        paths = [(mesh, _path(mesh)) for mesh in meshes if len(mesh.mesh_times) > 1]
-        if not paths:
+        meshes = [mesh for mesh in meshes if len(mesh.mesh_times) > 1]
+        if not meshes:
             return ()
-        rows = [each.problem.inputs(each.mesh_times[:-1:GROUP], each.mesh_states[:-1:GROUP]) for each, _ in paths]
+        rows = [each.problem.inputs(each.mesh_times[:-1:GROUP], each.mesh_states[:-1:GROUP]) for each in meshes]
         threshold, ranges, width = self.threshold(tolerance), self._ranges_of(), 2 * self.problem.degrees + 1
-        values = np.vstack([self._nearest(mesh) for mesh, _ in paths])
+        values = np.vstack([self._nearest(mesh) for mesh in meshes])
         all_seeds = self.seeds(np.vstack(rows), threshold, values)
         seeds = np.split(all_seeds, np.cumsum([len(each) for each in rows])[:-1])
         workspace, blind, spare = _make_workspace(self.tape_arrays.codes.size), _make_blind(), np.zeros((2, width))
         found: list[Stretch] = []
-        for (mesh, path), own, row in zip(paths, seeds, rows, strict=True):
+        for mesh, path, own, row in zip(meshes, _paths(meshes), seeds, rows, strict=True):
             ranges.inputs_low[width:] = ranges.inputs_high[width:] = row[0, width:]
             workspace.looked[0] = blind.found[0] = 0
             rules = Rules(self.limit, threshold, float(mesh.stride))
@@ -308,23 +308,40 @@ def _make_workspace(operations: int) -> AuditWorkspace:
     return AuditWorkspace(*_columns(DEEPEST), looked, flips, np.zeros(operations))
 
 
-def _path(mesh: Mesh) -> Path:
-    """The mesh of a run as a path; q̈ of its cubic jumps at the ends of steps."""
-    n, times, states = mesh.problem.degrees, mesh.mesh_times, mesh.mesh_states
+def _paths(meshes: Sequence[Mesh]) -> list[Path]:
+    """Meshes of two ends of steps and more as paths; q̈ of their cubics jumps at the ends of steps.
+
+    At the outer ones it is taken for as large as next to them. A motion with many events has many meshes, which are
+    computed together.
+    """
+    n, counts = meshes[0].problem.degrees, [len(each.mesh_times) for each in meshes]
+    times = np.concatenate([each.mesh_times for each in meshes])
+    states = np.concatenate([each.mesh_states for each in meshes])
     q, v = np.ascontiguousarray(states[:, :n]), np.ascontiguousarray(states[:, n : 2 * n])
-    jumps = np.zeros_like(q)
-    if len(times) > 2:
-        h = np.diff(times)[:, None]
-        with np.errstate(divide="ignore", invalid="ignore"):
-            slopes = np.diff(q, axis=0) / h
-            ends = (2.0 * v[:-1] + 4.0 * v[1:] - 6.0 * slopes) / h
-            begins = (6.0 * slopes - 4.0 * v[:-1] - 2.0 * v[1:]) / h
-        found = np.abs(ends[:-1] - begins[1:])
-        short = np.minimum(h[:-1], h[1:])[:, 0] <= 1e-13 * mesh.problem.t_end
-        found[short] = 0.0
-        jumps[1:-1] = np.nan_to_num(found, nan=0.0, posinf=0.0)
-        jumps[0], jumps[-1] = jumps[1], jumps[-2]
-    return Path(times, q, v, jumps)
+    behind = np.cumsum(counts)
+    firsts, lasts = behind - counts, behind - 1
+    jumps = _jumps(times, q, v, 1e-13 * meshes[0].problem.t_end)
+    jumps[firsts] = jumps[lasts] = 0.0
+    jumps[firsts], jumps[lasts] = jumps[firsts + 1], jumps[lasts - 1]
+    return [Path(times[i:j], q[i:j], v[i:j], jumps[i:j]) for i, j in zip(firsts.tolist(), behind.tolist(), strict=True)]
+
+
+def _jumps(times: Floats, q: Floats, v: Floats, shortest: float) -> Floats:
+    """How far q̈ of the cubics jumps from step to step, 0 beside one that is shorter: shape (states, n), like q and q̇.
+
+    `times` has shape (states,), `q` and `v`, which is q̇, shape (states, n).
+    """
+    found = np.zeros_like(q)
+    h = np.diff(times)[:, None]
+    with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
+        slopes = np.diff(q, axis=0) / h
+        ends = (2.0 * v[:-1] + 4.0 * v[1:] - 6.0 * slopes) / h
+        begins = (6.0 * slopes - 4.0 * v[:-1] - 2.0 * v[1:]) / h
+        apart = np.abs(ends[:-1] - begins[1:])
+    apart[np.minimum(h[:-1], h[1:])[:, 0] <= shortest] = 0.0
+    apart[~np.isfinite(apart)] = 0.0
+    found[1:-1] = apart
+    return found
 
 
 def largest_gap(method: Method) -> float:
