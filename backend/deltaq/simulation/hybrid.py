@@ -8,13 +8,14 @@ from __future__ import annotations
 
 from collections import deque
 from dataclasses import dataclass, field, replace
+from functools import partial
 
 import numpy as np
 
 from ..model.modes import Modes
 from .constraints import Reactions
 from .event import Event
-from .integration import Flag
+from .integration import Flag, Room
 from .kernels.loop import Result
 from .kernels.motion import FINE, MANY_EVENTS, NOT_FINITE, STEP_LIMIT, UNSETTLED
 from .method import Method
@@ -109,9 +110,9 @@ def run_on(
     most_switches = _most_switches(steps, float(times[-1]))
     record = _Record(np.zeros((times.size, width)), np.zeros((times.size, count)), most_switches)
     record.out[0, : 2 * problem.degrees] = problem.state[: 2 * problem.degrees]
+    go = partial(run, room=Room()) if watch is None else watch.first_part
     while True:
         stretch, ahead = _problem(current, record.steps), _ahead(times, current.time)
-        go = run if watch is None else watch.first_part
         found = go(stretch, method, ahead, cancelled, _after(steps, current.time))
         record.add(stretch, found)
         if (part := _end_of_part(current, found, times)) is not None:

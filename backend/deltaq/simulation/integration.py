@@ -204,6 +204,38 @@ def motion_of(problem: Problem, *, is_long: bool = True, finish: Finish = Finish
     )
 
 
+class Room:
+    """What runs of one model by one method read and write that follow one another: made by the first, used by all.
+
+    Each has other parameters, being in another mode. Those with constraints or switching functions get their own.
+    """
+
+    def __init__(self) -> None:
+        self._motions: dict[bool, Motion] = {}
+        self._watch: Watch | None = None
+
+    def motion(self, problem: Problem, *, is_long: bool, finish: Finish) -> Motion:
+        """See `motion_of`."""
+        found = self._motions.get(is_long)
+        if found is None or problem.is_constrained:
+            found = self._motions[is_long] = motion_of(problem, is_long=is_long, finish=finish)
+        found.inputs[2 * problem.degrees + 1 :] = problem.parameters
+        found.conditioning[0] = 1.0
+        return found
+
+    def watch(self, problem: Problem, flag: Flag, scheme: Scheme) -> Watch:
+        """See `watch_of`."""
+        found = self._watch
+        if found is None or found.functions == 0 or problem.model.switches is not None:
+            self._watch = watch_of(problem, flag, scheme)
+            return self._watch
+        found.inputs[2 * problem.degrees + 1 :] = problem.parameters
+        for each in (found.times, found.states, found.values, found.closest_times, found.closest_states):
+            each.fill(0.0)
+        found.least.fill(np.inf)
+        return found
+
+
 @cache
 def _no_memory() -> Floats:
     """That of motions without constraints: nobody reads it, or writes there."""

@@ -10,7 +10,7 @@ import numpy as np
 from .constraints import Finish, Reactions, is_locked, pivot_of
 from .event import Approach, Event, approaches, first_event, quick_event
 from .forks import fork_passed, is_at_fork
-from .integration import Flag, KernelArguments, motion_of, run_kernel, watch_of
+from .integration import Flag, KernelArguments, Room, run_kernel
 from .kernels.loop import Result
 from .kernels.motion import (
     EVENT,
@@ -140,67 +140,80 @@ class Steps:
         return make_plan(ends, sizes, 2 * degrees, CAPACITY if self.is_recorded else 0)
 
 
-def run(problem: Problem, method: Method, times: Floats, cancelled: Flag, steps: Steps) -> Run:
+def run(
+    problem: Problem, method: Method, times: Floats, cancelled: Flag, steps: Steps, room: Room | None = None
+) -> Run:
     """Integrates a problem once, with samples at `times`, shape (samples,), in seconds; `cancelled` has shape (1,).
 
     A run begins in machine code that is compiled quickly, or with series that are interpreted. One that turns out to be
     long begins again in code that runs faster, whose compilation takes as long as what was lost; so do runs of a model
     that has run for as long already.
     One that has taken a part of the steps that are allowed is given up where the rest of them would bring it nowhere.
+    Runs that follow one another may share a `room`.
     """
+    task = _Task(problem, method, times, cancelled, steps, room or Room())
     model, stages, limit = problem.model, method.tableau.stages, problem.step_limit
     shortest = limit * stages <= SHORT
     known = float(times[-1]) / steps.size * steps.ratio * stages if steps.tolerance == 0.0 else 0.0
     if shortest or not (model.is_thorough or max(known, model.usage.evaluations) > SHORT):
-        found = _run(problem, method, times, cancelled, steps, min(SHORT // stages, limit), is_long=False)
+        found = task.run(min(SHORT // stages, limit), is_long=False)
         model.usage.evaluations += found.result.evaluations
         if shortest or found.result.outcome not in (STEP_LIMIT, STIFF):
             return found
     if steps.tolerance > 0.0 and limit // PART * stages > SHORT:
-        found = _limited(problem, method, times, cancelled, steps)
+        found = task.limited()
         if found.result.outcome != STEP_LIMIT:
             return found
-    return _run(problem, method, times, cancelled, steps, limit, is_long=True)
+    return task.run(limit, is_long=True)
 
 
-def _limited(problem: Problem, method: Method, times: Floats, cancelled: Flag, steps: Steps) -> Run:
-    """A run of a part of the steps; OUT_OF_REACH if all that are allowed would bring it nowhere (`reach`)."""
-    part, span = problem.step_limit // PART, float(times[-1] - times[0])
-    found = _run(problem, method, times, cancelled, steps, part, is_long=True)
-    if found.result.outcome != STEP_LIMIT:
-        return found
-    gone = float(found.result.reached - times[0])
-    if not is_far(gone, span):
-        return found
-    half = _run(problem, method, times, cancelled, steps, part // 2, is_long=True)
-    is_lost = is_steady(gone, float(half.result.reached - times[0]))
-    return replace(found, result=found.result._replace(outcome=OUT_OF_REACH)) if is_lost else found
+@dataclass(frozen=True)
+class _Task:
+    """What a run is given but for how many steps it may take; see `run`."""
 
+    problem: Problem
+    method: Method
+    times: Floats
+    cancelled: Flag
+    steps: Steps
+    room: Room
 
-def _run(
-    problem: Problem, method: Method, times: Floats, cancelled: Flag, steps: Steps, limit: int, *, is_long: bool
-) -> Run:
-    """A run of so many steps at most."""
-    plan = steps.plan(float(times[-1]), problem.degrees, method)
-    is_series = isinstance(method.tableau, Series)
-    if is_series:
-        jet_of_model(problem.model, is_long=is_long)  # compiled before the time is taken
-    arguments = KernelArguments(
-        problem,
-        motion_of(problem, is_long=is_long and not is_series, finish=Finish.of(method)),
-        _control(limit, method, steps, plan),
-        watch_of(problem, cancelled, method.tableau),
-        np.ascontiguousarray(times),  # a kernel is compiled anew for an array with strides
-        np.zeros((times.size, problem.width)),
-        is_long,
-        steps.order,
-        steps.is_nudged,
-    )
-    start = perf_counter()
-    result = run_kernel(method.tableau, arguments)
-    wall_time = perf_counter() - start
-    found = _found(arguments, plan, result, wall_time, steps)
-    return found if arguments.watch.functions == 0 else _ended(found, arguments)
+    def limited(self) -> Run:
+        """A run of a part of the steps; OUT_OF_REACH if all that are allowed would bring it nowhere (`reach`)."""
+        part, span = self.problem.step_limit // PART, float(self.times[-1] - self.times[0])
+        found = self.run(part, is_long=True)
+        if found.result.outcome != STEP_LIMIT:
+            return found
+        gone = float(found.result.reached - self.times[0])
+        if not is_far(gone, span):
+            return found
+        half = self.run(part // 2, is_long=True)
+        is_lost = is_steady(gone, float(half.result.reached - self.times[0]))
+        return replace(found, result=found.result._replace(outcome=OUT_OF_REACH)) if is_lost else found
+
+    def run(self, limit: int, *, is_long: bool) -> Run:
+        """A run of so many steps at most."""
+        problem, method, times, steps, room = self.problem, self.method, self.times, self.steps, self.room
+        plan = steps.plan(float(times[-1]), problem.degrees, method)
+        is_series = isinstance(method.tableau, Series)
+        if is_series:
+            jet_of_model(problem.model, is_long=is_long)  # compiled before the time is taken
+        arguments = KernelArguments(
+            problem,
+            room.motion(problem, is_long=is_long and not is_series, finish=Finish.of(method)),
+            _control(limit, method, steps, plan),
+            room.watch(problem, self.cancelled, method.tableau),
+            np.ascontiguousarray(times),  # a kernel is compiled anew for an array with strides
+            np.zeros((times.size, problem.width)),
+            is_long,
+            steps.order,
+            steps.is_nudged,
+        )
+        start = perf_counter()
+        result = run_kernel(method.tableau, arguments)
+        wall_time = perf_counter() - start
+        found = _found(arguments, plan, result, wall_time, steps)
+        return found if arguments.watch.functions == 0 else _ended(found, arguments)
 
 
 def _found(arguments: KernelArguments, plan: Plan, result: Result, wall_time: float, steps: Steps) -> Run:
