@@ -22,10 +22,12 @@ from deltaq.mechanics.toml import read_toml
 from deltaq.mechanics.writing import write_scene
 from deltaq.model.modes import modes_of
 from deltaq.simulation.driver import simulate
-from deltaq.simulation.hybrid import run_on
+from deltaq.simulation.hybrid import in_first_mode, run_on
+from deltaq.simulation.integration import Room
 from deltaq.simulation.library import get_method
 from deltaq.simulation.reference import METHODS, Reference
 from deltaq.simulation.run import Steps
+from deltaq.simulation.run import run as run_once
 from deltaq.simulation.service import problem_of, run
 from deltaq.simulation.trajectory import Trajectory
 
@@ -65,6 +67,25 @@ def on_line(loads: Sequence[dict[str, Any]], events: Sequence[dict[str, Any]] = 
             "events": list(events),
         }
     )
+
+
+@pytest.mark.parametrize("name", JUMPING)
+def test_runs_in_one_room_are_as_in_rooms_of_their_own(name: str) -> None:
+    """Of a run before nothing is left there: neither its event, nor its parameters, nor its samples."""
+    modes = modes_of(scene_here(name))
+    assert modes is not None
+    problem = in_first_mode(problem_of(modes.scene, 5.0), modes)
+    other = replace(problem, parameters=tuple(1.01 * each for each in problem.parameters))
+    method, flag, steps, room = get_method("dop853"), np.zeros(1, dtype=np.int64), Steps(0.05, 1e-9), Room()
+    met = []
+    for each, t_end in ((problem, 5.0), (other, 0.01), (other, 5.0), (problem, 0.01)):
+        times = np.linspace(0.0, t_end, 51)
+        shared, alone = (run_once(each, method, times, flag, steps, place) for place in (room, None))
+        np.testing.assert_array_equal(shared.states, alone.states)
+        assert shared.result == alone.result
+        assert shared.conditioning == alone.conditioning
+        met.append(shared.event is not None)
+    assert met == [True, False, True, False]
 
 
 @CLOSED_FORMS

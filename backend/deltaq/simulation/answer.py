@@ -15,7 +15,6 @@ from ..model.model import Observation
 from .choice import Choice
 from .columns import WRITERS, Column, Writer
 from .constraints import Reactions
-from .derivatives import power
 from .estimate import Estimate
 from .friction import FrictionForce
 from .outcome import Outcome
@@ -36,19 +35,21 @@ def answer(
     problem: Problem,
     trajectory: Trajectory,
     seen: Observation,
+    watts: Floats,
     compile_time: float,
     frictions: Mapping[str, FrictionForce],
 ) -> Document:
-    """The answer to a request as plain data. All numbers are finite, and rounded to what their error supports."""
+    """The answer to a request as plain data. All numbers are finite, and rounded to what their error supports.
+
+    `watts` is the power at the samples, shape (samples,).
+    """
     errors = trajectory.estimate.errors if trajectory.estimate else np.full(len(trajectory.times), UNKNOWN_ERROR)
     column = WRITERS[request.columns]
     parts: Document = _curves(request, problem, trajectory, seen, errors, column)
     if not request.include.isdisjoint({"energy", "power"}):
-        parts["energy"] = _energy(request, problem, trajectory, seen, errors)
+        parts["energy"] = _energy(request, trajectory, seen, watts, errors)
     if "error" in request.include and trajectory.estimate:  # asked for, it is there
-        parts["error"] = _error(
-            problem, trajectory.estimate, request.tolerance, is_reached=trajectory.tolerance_reached
-        )
+        parts["error"] = _error(request, problem, trajectory, trajectory.estimate)
     parts |= _constrained(request, problem, trajectory)
     if "loads" in request.include and frictions:
         parts["friction"] = _friction(frictions, column)
@@ -138,16 +139,16 @@ def _times(times: list[float], errors: list[float | None]) -> list[tuple[float, 
     return list(zip(told.tolist(), shorter, strict=True))
 
 
-def _energy(request: Request, problem: Problem, trajectory: Trajectory, seen: Observation, errors: Floats) -> Document:
+def _energy(request: Request, trajectory: Trajectory, seen: Observation, watts: Floats, errors: Floats) -> Document:
     """Energies and the balance E + V − ∫P dt, constant when all is right; P and the work by itself if asked for."""
-    column, states = WRITERS[request.columns], np.hstack([trajectory.values, trajectory.rates])
+    column = WRITERS[request.columns]
     balance = seen.kinetic + seen.potential - trajectory.work
     scale = float(np.max(np.abs(seen.kinetic) + np.abs(seen.potential), initial=1e-300))
     # Second order in the error where the energy is flat, hence more digits than the error itself supports.
     doubt = np.maximum(1e-3 * errors, 1e-14) * scale
     energies = {"kinetic": seen.kinetic, "potential": seen.potential, "balance": balance}
     if "power" in request.include:
-        energies["power"] = power(problem, trajectory.times, states, trajectory.stretches)
+        energies["power"] = watts
         energies["work"] = trajectory.work
     shorter = _together(list(energies.values()), doubt, column)
     return {
@@ -221,7 +222,7 @@ def _moved(request: Request, moved: Moved) -> Document | None:
     return changed or None
 
 
-def _error(problem: Problem, found: Estimate, tolerance: float | None, *, is_reached: bool | None) -> Document:
+def _error(request: Request, problem: Problem, trajectory: Trajectory, found: Estimate) -> Document:
     told = {}
     if found.multipliers is not None:
         each = {name: significant(found.multipliers[:, k], 3).tolist() for k, name in _unique(problem)}
@@ -231,8 +232,8 @@ def _error(problem: Problem, found: Estimate, tolerance: float | None, *, is_rea
         "estimate": significant(found.errors, 3).tolist(),
         "horizon": found.horizon,
         "worst": short(found.worst),
-        "tolerance": tolerance,
-        "reached": is_reached,
+        "tolerance": request.tolerance,
+        "reached": trajectory.tolerance_reached,
     }
 
 

@@ -115,7 +115,7 @@ def _simulated(request: Request, choice: Choice, problem: Problem, compile_time:
     if good < len(trajectory.times):
         trajectory, seen = _cut(trajectory, good), _cut_observation(seen, good)
         frictions = {name: each.first(good) for name, each in frictions.items()}
-    return answer(request, choice, problem, trajectory, seen, compile_time, frictions)
+    return answer(request, choice, problem, trajectory, seen, watts[: len(trajectory.times)], compile_time, frictions)
 
 
 def require_one_mode(scene: Scene) -> None:
