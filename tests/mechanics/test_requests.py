@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import pytest
 
-from deltaq.contract.base import SceneWithChanges
+from deltaq.contract.base import SceneWithChanges, SceneWithInitialValues
 from deltaq.contract.reading import read
 from deltaq.errors import InputError, Problem
 from deltaq.mechanics.families.chain_pendulum import ChainPendulum
 from deltaq.mechanics.library import load_scene
-from deltaq.mechanics.requests import changed_scene
+from deltaq.mechanics.requests import begun_scene, changed_scene
 from deltaq.mechanics.scene import Scene
 from deltaq.mechanics.writing import write_scene
 
@@ -21,6 +21,17 @@ def changed(document: dict[str, object]) -> Scene:
 def test_by_name_and_by_document() -> None:
     scene = load_scene("pendulum")
     assert changed({"scene": "pendulum"}) == changed({"scene": write_scene(scene)}) == scene
+
+
+@pytest.mark.parametrize("reference", ["pendulum", write_scene(load_scene("pendulum"))], ids=["name", "document"])
+def test_without_changes_it_is_the_very_scene_of_the_request_before(reference: object) -> None:
+    """Of a copy all that is known of a scene would have to be found out anew, at every request."""
+    for reading, asked in ((changed_scene, SceneWithChanges), (begun_scene, SceneWithInitialValues)):
+        first, second = (reading(read(asked, {"scene": reference})) for _ in range(2))
+        assert first is second
+    nudged = begun_scene(read(SceneWithInitialValues, {"scene": reference, "initial": {"phi": {"value": 0.3}}}))
+    assert nudged.free[0].value == 0.3
+    assert nudged is not first
 
 
 @pytest.mark.parametrize("size", [1, 2, 12])

@@ -37,6 +37,8 @@ def change(
 
 
 def _with_parameters(scene: Scene, values: Mapping[str, float], *, may_add: bool) -> Scene:
+    if not values:
+        return scene  # and not a copy, of which everything would have to be found out anew
     known = {parameter.name: parameter for parameter in scene.parameters}
     for name, value in values.items():
         if name not in known and not may_add:

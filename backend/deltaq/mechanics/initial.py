@@ -12,6 +12,8 @@ from .scene import Scene
 
 def with_initial(scene: Scene, initial: Mapping[str, Mapping[str, float]], freeze: Sequence[str] = ()) -> Scene:
     """The scene with other initial values; the range of the slider gives way."""
+    if not initial:
+        return scene  # and not a copy, of which everything would have to be found out anew
     known = {coordinate.name for coordinate in scene.coordinates}
     free = {coordinate.name for coordinate in scene.free}
     for name in initial:
