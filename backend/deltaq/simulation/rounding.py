@@ -13,6 +13,7 @@ GUARD_DIGITS = 3  # below the first digit in doubt
 MOST_DIGITS = 15  # decimals; of numbers that are all small, behind the leading zeros of the largest
 GUARD_BITS, SMALLEST_ERROR = 8, 1e-15  # the same for numbers that are rounded by bits
 EXACT = 22  # powers of ten up to this one are doubles
+TENS = np.array([10.0**count for count in range(EXACT + 1)])
 WHOLE = 2.0**52  # from here on doubles are whole numbers, and without decimals
 
 
@@ -31,12 +32,14 @@ def rounded_alone(values: Floats, errors: Floats) -> Floats:
 
 
 def _to_decimals(values: Floats, decimals: Floats) -> Floats:
-    """Each value of shape (samples, …) with so many decimals, shape (samples,)."""
-    result = values.copy()
-    for count in np.unique(decimals[decimals <= EXACT]):
-        chosen = decimals == count
-        result[chosen] = _with_decimals(result[chosen], int(count))
-    return result + 0.0  # no negative zero
+    """Each value of shape (samples, …) with so many decimals, shape (samples,); what has none of them as it is."""
+    counts = decimals.reshape(-1, *(1,) * (values.ndim - 1))
+    is_exact = counts <= EXACT
+    scales = TENS[np.where(is_exact, counts, 0.0).astype(np.intp)]
+    with np.errstate(over="ignore", invalid="ignore"):
+        found = np.rint(values * scales) / scales
+    has_decimals = is_exact & (np.abs(values) < WHOLE)
+    return np.where(has_decimals, found, values) + 0.0  # no negative zero
 
 
 def rounded_to_bits(values: Floats, errors: Floats) -> Floats:
@@ -54,12 +57,6 @@ def short(value: float, digits: int = 3) -> float:
     """So many digits of a number for people; of one so large that rounding it up gives none, all."""
     found = float(f"{value:.{digits}g}")
     return found if math.isfinite(found) else float(value)
-
-
-def _with_decimals(values: Floats, decimals: int) -> Floats:
-    """Rounded, except what has no decimals: 10ⁿ times that may be no number."""
-    has_decimals = np.abs(values) < WHOLE
-    return np.where(has_decimals, np.round(np.where(has_decimals, values, 0.0), decimals), values)
 
 
 def _in_range(found: Floats, values: Floats) -> Floats:
