@@ -21,15 +21,17 @@ from deltaq.mechanics.scene import Scene
 from deltaq.mechanics.toml import read_toml
 from deltaq.mechanics.writing import write_scene
 from deltaq.model.modes import modes_of
+from deltaq.simulation.constraints import Finish
 from deltaq.simulation.driver import simulate
 from deltaq.simulation.hybrid import in_first_mode, run_on
-from deltaq.simulation.integration import Room
+from deltaq.simulation.integration import Room, motion_of, watch_of
 from deltaq.simulation.library import get_method
 from deltaq.simulation.reference import METHODS, Reference
 from deltaq.simulation.run import Steps
 from deltaq.simulation.run import run as run_once
 from deltaq.simulation.service import problem_of, run
 from deltaq.simulation.trajectory import Trajectory
+from deltaq.simulation.transitions import begun, with_offsets
 
 G = 9.81
 
@@ -82,10 +84,51 @@ def test_runs_in_one_room_are_as_in_rooms_of_their_own(name: str) -> None:
         times = np.linspace(0.0, t_end, 51)
         shared, alone = (run_once(each, method, times, flag, steps, place) for place in (room, None))
         np.testing.assert_array_equal(shared.states, alone.states)
-        assert shared.result == alone.result
-        assert shared.conditioning == alone.conditioning
+        assert (shared.result, shared.conditioning) == (alone.result, alone.conditioning)
         met.append(shared.event is not None)
     assert met == [True, False, True, False]
+
+
+@pytest.mark.parametrize("name", JUMPING)
+def test_what_a_room_hands_out_again_is_as_new(name: str) -> None:
+    """Every array of what is watched, and of the right-hand side what a run does not write before it reads."""
+    modes = modes_of(scene_here(name))
+    assert modes is not None
+    problem = in_first_mode(problem_of(modes.scene, 5.0), modes)
+    scheme, flag, first = get_method("dop853").tableau, np.zeros(1, dtype=np.int64), 2 * problem.degrees + 1
+    room, finish = Room(), Finish.of(get_method("dop853"))
+    watch, motion = room.watch(problem, flag, scheme), room.motion(problem, is_long=False, finish=finish)
+    for array in (*watch[4:5], *watch[6:12], motion.inputs, motion.conditioning):
+        array.fill(-1.0)
+    new, again = watch_of(problem, flag, scheme), room.watch(problem, flag, scheme)
+    assert again.least is watch.least
+    for fresh, used in zip(new[5:12], again[5:12], strict=True):
+        np.testing.assert_array_equal(used, fresh)
+    np.testing.assert_array_equal(again.inputs[first:], new.inputs[first:])
+    own, motion = motion_of(problem), room.motion(problem, is_long=False, finish=finish)
+    np.testing.assert_array_equal(motion.inputs[first:], own.inputs[first:])
+    assert motion.conditioning == own.conditioning
+
+
+@pytest.mark.parametrize("time", [1e3 + 0.1 * k for k in range(8)])
+def test_a_contact_that_has_opened_is_not_closed_again_by_rounding_of_the_time(time: float) -> None:
+    """On a table that goes up and down a gap of zero changes with the time by more than rounding of places."""
+    modes = modes_of(scene_here("bouncing-ball"))
+    assert modes is not None
+    current = begun(replace(problem_of(modes.scene, 1.0), model=modes.model), modes)
+    below = current.at(time, np.zeros(1), np.zeros(1))
+    touching = current.at(time, np.array([-below.facts.gaps[0]]), np.zeros(1))
+    found = with_offsets(touching)
+    assert (found.at(time + 4.0 * math.ulp(time), found.q, found.v).watched > 0.0).all()
+
+
+@pytest.mark.parametrize(
+    ("name", "is_moved"), [("bouncing-ball", True), ("stick-slip", False), ("braked-oscillator", False)]
+)
+def test_whether_the_time_alone_moves_what_is_watched(name: str, is_moved: bool) -> None:
+    modes = modes_of(scene_here(name))
+    assert modes is not None
+    assert modes.watches_time == is_moved
 
 
 @CLOSED_FORMS
