@@ -291,6 +291,12 @@ def test_fixed_steps_of_a_pair_share_no_time() -> None:
         assert 2.0 * k < h * (1.0 + 1e-9)
 
 
+def test_steps_behind_an_event_count_from_there() -> None:
+    """What is left of the first piece is 0.1 s."""
+    pieces = Pieces((3.0, 10.0), (9.0, 9.0))
+    np.testing.assert_allclose(pieces.steps(0.5, 4.0, start=2.9), [0.025, 0.125])
+
+
 def test_the_first_stretch_that_a_step_misses() -> None:
     pieces = Pieces((1.0, 2.0, 2.1, 3.0), (3.0, 0.01, 3.0, 0.001))
     assert pieces.needed_by(0.1) == Stretch(1.0, 2.0, 0.01)

@@ -107,14 +107,16 @@ class Model:
 
     @cached_property
     def audited(self) -> Tape:
-        """The same, and behind them the values of events that end motions, which are to be seen as well as forces."""
-        values = [self.eqs.events[index] for index in self.ending]
+        """The same, and behind them the values of events, which are to be seen as well as forces."""
+        values = [self.eqs.events[index] for index in self.seen_events]
         return tape_of(self.eqs.symbols.inputs, [*_of_tape(self.eqs), *values]) if values else self.tape
 
     @cached_property
-    def ending(self) -> tuple[int, ...]:
-        """The events that end its motions, by number; none of a model in modes, whose events are others."""
-        return () if self.is_in_modes else tuple(i for i, each in enumerate(self.scene.events) if not each.bounces)
+    def seen_events(self) -> tuple[int, ...]:
+        """The events that end its motions, by number, or (in modes) its stretches: all that are watched."""
+        if self.is_in_modes:
+            return tuple(range(len(self.eqs.events)))
+        return tuple(i for i, each in enumerate(self.scene.events) if not each.bounces)
 
     @cached_property
     def thorough(self) -> Compiled:

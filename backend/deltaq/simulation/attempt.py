@@ -232,12 +232,22 @@ class Integrator:
         for last in (False,) * (ROUNDS - 1) + (True,):
             found = compared(pieces)
             tolerance = min(self.tolerance, np.inf if found.estimate is None else found.estimate.worst)
-            blind = self._blind(found.runs[-1], tolerance)
+            blind = self._blind(found.runs[-1], tolerance) or self._missed(found, tolerance)
             if last or not blind or not self.is_affordable(blind):
                 break
             discarded += found.own
             pieces = pieces.with_bounds([(each.start, each.end, each.step) for each in blind])
         return replace(found, blind=blind, discarded=discarded), pieces
+
+    def _missed(self, found: Attempt, tolerance: float) -> tuple[Stretch, ...]:
+        """Where the coarser run of a pair was blind, if it went on behind more or fewer events than the finer one.
+
+        Its steps are longer, and what the finer run saw may lie between their ends.
+        """
+        coarse, fine = found.runs[0], found.runs[-1]
+        if len(coarse.meshes) == len(fine.meshes) or coarse.steps.tolerance == 0.0:
+            return ()
+        return self._blind(self._run(replace(coarse.steps, is_recorded=True)), tolerance)
 
     def rounded(self, found: Attempt) -> Attempt:
         """The attempt with an estimate no smaller than the effect of rounding.

@@ -20,7 +20,8 @@ from .event import event_values
 from .kernels.audit import DEEPEST, GROUP, AuditWorkspace, Blind, Path, Rules, inspect, survey_times
 from .kernels.intervals import Ranges, TapeArrays
 from .kernels.sight import Boxes, Meshes, Room, Slopes, find_blind, find_unsure
-from .method import Method
+from .kernels.watch import NODES, NODES_OF_SERIES, places_of_watch
+from .method import Method, Series
 from .pieces import Pieces, Stretch
 from .problem import Floats, Problem
 from .run import Mesh, Run
@@ -174,12 +175,12 @@ class Audit:
         return self.problem.model.audited
 
     def _nearest(self, mesh: Mesh) -> Floats:
-        """The least value of each event that ends motions in each GROUP of steps of a mesh: shape (groups, events)."""
+        """The least value of each event in each GROUP of steps of a mesh: shape (groups, events)."""
         starts = np.arange(0, len(mesh.mesh_times) - 1, GROUP)
-        ending = list(self.problem.model.ending)
-        if not ending:
+        events = list(self.problem.model.seen_events)
+        if not events:
             return np.ones((len(starts), 0))
-        values = event_values(mesh.problem, mesh.mesh_times, mesh.mesh_states)[:-1, ending]
+        values = event_values(mesh.problem, mesh.mesh_times, mesh.mesh_states)[:-1, events]
         return np.asarray(np.minimum.reduceat(np.where(values > 0.0, values, np.inf), starts, axis=0))
 
     @property
@@ -191,7 +192,9 @@ class Audit:
     def tape_arrays(self) -> TapeArrays:
         """The model's operations, as kernels read them."""
         tape = self._tape
-        return TapeArrays(tape.codes, tape.a, tape.b, tape.c, tape.constants, tape.outputs)
+        events = len(self.problem.model.seen_events)
+        share = min(1.0, self.limit * largest_gap_of_watch(self.method) / PER_GAP)
+        return TapeArrays(tape.codes, tape.a, tape.b, tape.c, tape.constants, tape.outputs, events, share)
 
     @cached_property
     def _ranges(self) -> Ranges:
@@ -217,7 +220,7 @@ class Audit:
         )
         guides = np.repeat([[self._per_span * self._per_span, self._per_span]], len(model.layout.guided), axis=1)
         with np.errstate(divide="ignore"):
-            of_events = np.zeros((len(rows), len(model.ending))) if values is None else threshold / values
+            of_events = np.zeros((len(rows), len(model.seen_events))) if values is None else threshold / values
         found = np.hstack([of_motion, np.repeat(guides, len(rows), axis=0), of_constraints, of_events])
         return np.asarray(np.nan_to_num(found, nan=np.finfo(float).max, posinf=np.finfo(float).max))
 
@@ -228,9 +231,9 @@ class Audit:
         own, so that steps end there.
         """
         start = self.problem.inputs(np.zeros(1), self.problem.state[None, :])
-        ending = list(self.problem.model.ending)
-        values = event_values(self.problem, np.zeros(1), self.problem.state[None, :])[:, ending]
-        self._ranges.seeds[:] = self.seeds(start, threshold, np.maximum(values, np.finfo(float).tiny))[0]
+        values = event_values(self.problem, np.zeros(1), self.problem.state[None, :])
+        left = np.maximum(np.abs(values[:, list(self.problem.model.seen_events)]), np.finfo(float).tiny)
+        self._ranges.seeds[:] = self.seeds(start, threshold, left)[0]
         leaves: list[tuple[float, float, float]] = []
         level = Level(np.zeros(1), np.array([self.problem.t_end]), np.zeros(1, dtype=np.bool_))
         for depth in range(LEVELS):
@@ -342,6 +345,12 @@ def _jumps(times: Floats, q: Floats, v: Floats, shortest: float) -> Floats:
     apart[~np.isfinite(apart)] = 0.0
     found[1:-1] = apart
     return found
+
+
+def largest_gap_of_watch(method: Method) -> float:
+    """The largest distance, in steps, between neighbouring places in which a step is looked at for events."""
+    count = NODES_OF_SERIES if isinstance(method.tableau, Series) else NODES
+    return float(np.diff(places_of_watch(count)).max())
 
 
 def largest_gap(method: Method) -> float:

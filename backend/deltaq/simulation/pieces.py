@@ -89,12 +89,12 @@ class Pieces:
             largest[inside] = np.minimum(largest[inside], step)
         return Pieces(tuple(cuts), tuple(largest.tolist()))
 
-    def steps(self, size: float, ratio: float = 1.0) -> Floats:
+    def steps(self, size: float, ratio: float = 1.0, start: float = 0.0) -> Floats:
         """Fixed steps for each piece: as many as it takes with that size or the bound, `ratio` times as many.
 
-        Returns shape (pieces,), in seconds.
+        The first piece counts from the `start` of the run, in seconds. Returns shape (pieces,), in seconds.
         """
-        lengths = np.diff(np.array((0.0, *self.ends)))
+        lengths = np.diff(np.array((start, *self.ends)))
         bounds = np.minimum(np.array(self.largest), size)
         with np.errstate(divide="ignore"):
             counts = np.ceil(np.ceil(lengths / bounds * (1.0 - 1e-12)) * ratio * (1.0 - 1e-12))

@@ -127,14 +127,20 @@ class Steps:
     is_nudged: bool = False
     shaken: int = 0
 
-    def plan(self, t_end: float, degrees: int, method: Method) -> Plan:
-        """Pieces and sizes as a kernel wants them; the last fixed step of an implicit method may go past the end."""
-        pieces, size = self.pieces, self.size if self.tolerance > 0.0 else self.size / self.ratio
+    def plan(self, start: float, t_end: float, degrees: int, method: Method) -> Plan:
+        """Pieces and sizes as a kernel wants them; the last fixed step of an implicit method may go past the end.
+
+        What is left of a span behind an event may be shorter than a fixed step. A finer run takes several there, or it
+        would take the same one as the coarser run, and be wrong by the same.
+        """
+        pieces, size = self.pieces, self.size
+        if self.tolerance == 0.0:
+            size = (self.size if self.ratio == 1.0 else min(self.size, t_end - start)) / self.ratio
         ends = np.array((t_end,) if pieces is None else pieces.ends)
         if pieces is None or (self.tolerance == 0.0 and pieces.is_whole):
             sizes = np.array((size,))
         else:
-            sizes = pieces.bounded(size) if self.tolerance > 0.0 else pieces.steps(self.size, self.ratio)
+            sizes = pieces.bounded(size) if self.tolerance > 0.0 else pieces.steps(self.size, self.ratio, start)
         if self.tolerance == 0.0 and not method.is_explicit:
             ends[-1] = np.inf
         return make_plan(ends, sizes, 2 * degrees, CAPACITY if self.is_recorded else 0)
@@ -194,7 +200,7 @@ class _Task:
     def run(self, limit: int, *, is_long: bool) -> Run:
         """A run of so many steps at most."""
         problem, method, times, steps, room = self.problem, self.method, self.times, self.steps, self.room
-        plan = steps.plan(float(times[-1]), problem.degrees, method)
+        plan = steps.plan(float(times[0]), float(times[-1]), problem.degrees, method)
         is_series = isinstance(method.tableau, Series)
         if is_series:
             jet_of_model(problem.model, is_long=is_long)  # compiled before the time is taken

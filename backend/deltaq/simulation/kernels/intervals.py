@@ -50,7 +50,9 @@ Indices = NDArray[np.int64]
 class TapeArrays(NamedTuple):
     """A tape (see `model.tape`): `codes`, operands `a`, `b`, `c` and `constants` have shape (operations,).
 
-    `outputs`, shape (outputs,), are the places of the results among the operations.
+    `outputs`, shape (outputs,), are the places of the results among the operations. The last `watched` of them are
+    values of events: they count only where they may fall to zero. What moves them alone may swing 1/`share` times as
+    far as what moves forces, for a step is looked at in more places for events than for forces.
     """
 
     codes: Indices
@@ -59,6 +61,8 @@ class TapeArrays(NamedTuple):
     c: Indices
     constants: Floats
     outputs: Indices
+    watched: int = 0
+    share: float = 1.0
 
 
 class Ranges(NamedTuple):
@@ -258,12 +262,17 @@ def derivative_bound(
 
 
 @subroutine
-def propagate_influence(tape: TapeArrays, ranges: Ranges) -> None:
-    """Bounds of the influence of every operation on q̈, from the seeds backward (`propagate_bounds` comes first)."""
+def propagate_influence(tape: TapeArrays, ranges: Ranges, counted: int) -> None:
+    """Bounds of the influence of every operation on q̈, from the seeds backward (`propagate_bounds` comes first).
+
+    So many outputs count: all, or those of forces alone.
+    """
     influence, low, high = ranges.influence, ranges.low, ranges.high
     influence[:] = 0.0
-    for k in range(tape.outputs.size):
-        influence[tape.outputs[k]] += ranges.seeds[k]
+    of_forces = tape.outputs.size - tape.watched
+    for k in range(counted):
+        if k < of_forces or not low[tape.outputs[k]] > 0.0:
+            influence[tape.outputs[k]] += ranges.seeds[k]
     for i in range(tape.codes.size - 1, -1, -1):
         weight, code = influence[i], tape.codes[i]
         a, b = tape.a[i], tape.b[i]
@@ -341,11 +350,12 @@ def is_relevant(ranges: Ranges, i: int, threshold: float) -> bool:
 
 
 @subroutine
-def largest_swing(tape: TapeArrays, ranges: Ranges, threshold: float) -> tuple[float, bool]:
-    """The largest swing of a relevant operation over the box, and whether a relevant choice is undecided in it."""
-    checkpoint()
-    propagate_bounds(tape, ranges)
-    propagate_influence(tape, ranges)
+def swing_and_choice(tape: TapeArrays, ranges: Ranges, threshold: float, counted: int) -> tuple[float, bool]:
+    """The largest swing of an operation that is relevant for so many outputs, over a box whose bounds are known.
+
+    And whether a relevant choice is undecided in it.
+    """
+    propagate_influence(tape, ranges, counted)
     largest, is_undecided = 0.0, False
     for i in range(tape.codes.size):
         if ranges.influence[i] == 0.0 or not is_relevant(ranges, i, threshold):
@@ -356,3 +366,19 @@ def largest_swing(tape: TapeArrays, ranges: Ranges, threshold: float) -> tuple[f
         else:
             largest = max(largest, swing_of(tape, ranges, i))
     return largest, is_undecided
+
+
+@subroutine
+def largest_swing(tape: TapeArrays, ranges: Ranges, threshold: float) -> tuple[float, bool]:
+    """The largest swing of a relevant operation over the box, and whether a relevant choice is undecided in it.
+
+    That of what moves events alone is told in the measure of forces.
+    """
+    checkpoint()
+    propagate_bounds(tape, ranges)
+    count = tape.outputs.size
+    of_forces, is_undecided = swing_and_choice(tape, ranges, threshold, count - tape.watched)
+    if tape.watched == 0:
+        return of_forces, is_undecided
+    largest, is_undecided = swing_and_choice(tape, ranges, threshold, count)  # last, for what is relevant is asked for
+    return max(of_forces, tape.share * largest), is_undecided

@@ -60,11 +60,16 @@ def make_watch(
 
     `cancelled` has shape (1,), `inputs` shape (inputs,); each step is looked at in `count` places.
     """
-    nodes = 0.5 - 0.5 * np.cos(np.pi * np.arange(count) / (count - 1))
+    nodes = places_of_watch(count)
     times, states = np.zeros(count), np.zeros((count, width))
     values, least = np.zeros((count, functions)), np.full(functions, np.inf)
     closest = np.zeros((functions, count)), np.zeros((functions, count, width))
     return Watch(cancelled, *addresses, functions, inputs, nodes, times, states, values, least, *closest, switch)
+
+
+def places_of_watch(count: int) -> Floats:
+    """Chebyshev's extreme points in units of a step, from 0 to 1: shape (count,)."""
+    return np.asarray(0.5 - 0.5 * np.cos(np.pi * np.arange(count) / (count - 1)))
 
 
 def unwatched(cancelled: NDArray[np.int64], switch: Switch | None = None) -> Watch:
