@@ -187,3 +187,30 @@ def test_damping_without_a_drive_is_told() -> None:
     with pytest.raises(RequestError) as caught:
         ask(scene=damped, parameters={"c": 0.1})
     assert [(one.code, one.pointer) for one in caught.value.problems] == [("section-dissipation", "/scene")]
+
+
+@pytest.mark.parametrize("speed", [1.0, -1.0])
+@pytest.mark.parametrize("direction", ["rising", "falling"])
+@pytest.mark.parametrize(
+    "energy",
+    [
+        pytest.param("m*(x^2/2 + x*abs(x)/4) + m*y^2", id="a modulus"),
+        pytest.param("m*(x^2/4 + max(0, x)^2/2) + m*y^2", id="a maximum"),
+        pytest.param("m*(x^2/2 + x^2*sign(x)/4) + m*y^2", id="a sign"),
+    ],
+)
+def test_a_motion_that_begins_on_a_kink_in_the_plane(energy: str, direction: str, speed: float) -> None:
+    """x″ = −1.5 x where x > 0, else −0.5 x: half a turn each; the start counts if it is in the direction."""
+    found = ask(
+        scene=plane(energy, vx=speed, y=0.4),
+        plane="x",
+        direction=direction,
+        horizontal="y",
+        vertical="dot(y)",
+        crossings=4,
+    )["orbits"][0]
+    halves = math.pi / math.sqrt(1.5), math.pi / math.sqrt(0.5)
+    begins = (speed > 0.0) == (direction == "rising")
+    first = 0.0 if begins else halves[0] if speed > 0.0 else halves[1]
+    assert found["status"] == "ok"
+    np.testing.assert_allclose(found["t"], first + sum(halves) * np.arange(4), atol=1e-10)

@@ -228,3 +228,29 @@ def test_steps_that_do_not_see_the_plane_are_gone_back_to() -> None:
         np.testing.assert_allclose(found.times[mine], times, atol=1e-12)
         np.testing.assert_allclose(found.states[mine, 0], starts[number, 2] * times, rtol=1e-13)
     assert standing.outcomes.tolist() == [FINE] * 9
+
+
+@pytest.mark.parametrize(
+    ("cut", "roots"),
+    [
+        pytest.param("1/(x - 0.2) - 1", [(1.2, -1.0)], id="a pole"),
+        pytest.param("tan(3*x)", [(0.0, 1.0), (math.pi / 3.0, 1.0), (-math.pi / 3.0, 1.0)], id="poles all along"),
+        pytest.param("1/x", [], id="a pole alone"),
+        pytest.param("sqrt(x) - 0.5", [(0.25, 1.0)], id="no value on one side"),
+        pytest.param("log(x - 0.3)", [(1.3, 1.0)], id="no value on most of the way"),
+        pytest.param("sign(x - 0.3)", [(0.3, 1.0)], id="a jump"),
+        pytest.param("abs(x) - 0.3", [(0.3, 1.0), (-0.3, -1.0)], id="a kink"),
+        pytest.param("max(x, 0) - 0.3", [(0.3, 1.0)], id="a part at rest"),
+    ],
+)
+def test_planes_with_poles_jumps_and_without_values_are_crossed_where_they_are_zero(
+    cut: str, roots: list[tuple[float, float]]
+) -> None:
+    """x = a sin t with a = 1.58; each root is crossed once in a period, in the direction in which h rises."""
+    a, most = 1.58, 9
+    begin = np.array([[a * math.sin(0.1), 0.0, a * math.cos(0.1), 0.0]])
+    found, _ = crossings(plane("m*x^2/2 + m*a*y^2/2"), cut, begin, 40.0, most=most)
+    once = [math.asin(x / a) if rate > 0.0 else math.pi - math.asin(x / a) for x, rate in roots]
+    times = sorted(each + math.tau * k - 0.1 for each in once for k in range(-1, 8))
+    expected = [time for time in times if 0.0 < time < 40.0][:most]
+    np.testing.assert_allclose(found.times, expected, atol=1e-9)

@@ -241,15 +241,26 @@ class _Search:
         turned = 0.25 * lengths[:, None] * (slopes[:, :-2:2] - slopes[:, 2::2])
         middle = 0.5 * (values[:, :-2:2] + values[:, 2::2]) + turned
         is_missed = (np.abs(middle - values[:, 1::2]) > UNSEEN * size[:, None]).any(axis=1)
+        has_none = np.isnan(values)  # beside where h has no value it may have crossed already
+        is_missed |= has_none.any(axis=1) & ~has_none.all(axis=1)
         # values that are alike while h moves fast: it has turned back as often between them
         return np.asarray(is_missed | (lengths * fastest > STILL * np.ptp(values, axis=1) + ZERO * size))
 
     def _signs(self, seen: _Looked) -> _Places:
-        """Parts in which h changes its sign."""
+        """Parts in which h changes its sign at a root.
+
+        Where a slope at an end goes against the change it may do so at a pole, which would count as a crossing.
+        """
         shift = self.surface.shift(0.5 * (seen.values[:, :-1] + seen.values[:, 1:]))
         left, right = seen.values[:, :-1] - shift, seen.values[:, 1:] - shift
         at = np.nonzero(self.surface.is_crossed(left, right) & seen.taken[:, None])
-        return self._places(seen, at, *seen.ends(*at), left[at], right[at], shift[at])
+        found = self._places(seen, at, *seen.ends(*at), left[at], right[at], shift[at])
+        change, before, behind = right[at] - left[at], seen.slopes[:, :-1][at], seen.slopes[:, 1:][at]
+        is_odd = (change * before < 0.0) | (change * behind < 0.0)
+        if not is_odd.any():
+            return found
+        is_odd[is_odd] = ~_root_of(found.brackets.chosen(is_odd), self.surface)[1]
+        return found.chosen(~is_odd)
 
     def _places(self, seen: _Looked, at: tuple[Integers, ...], *arrays: Floats) -> _Places:
         """Brackets in parts of steps of lanes, as `at` tells."""
@@ -260,7 +271,8 @@ class _Search:
     def _touches(self, seen: _Looked) -> list[_Places]:
         """Parts in which h touches zero and turns back.
 
-        Where the cubic's extremum is near zero or behind it, h there decides; both halves may be crossings.
+        Where the cubic's extremum is near zero or behind it, or the tangents at both ends meet there, which is as far
+        as a kink can go, h itself decides; both halves may be crossings.
         """
         shift = self.surface.shift(0.5 * (seen.values[:, :-1] + seen.values[:, 1:]))
         left, right = seen.values[:, :-1] - shift, seen.values[:, 1:] - shift
@@ -272,7 +284,9 @@ class _Search:
         length = seen.gone.lengths[step, lane]
         falls, rises = seen.slopes[step, part, lane] * length, seen.slopes[step, part + 1, lane] * length
         x, extremum = _extremum(left, right, falls, rises)
-        near = extremum * np.sign(left) <= NEAR * np.minimum(np.abs(left), np.abs(right))
+        tangents = left + falls * (right - left - rises) / (falls - rises)
+        lowest = np.minimum(extremum * np.sign(left), tangents * np.sign(left))
+        near = lowest <= NEAR * np.minimum(np.abs(left), np.abs(right))
         at = step[near], part[near], lane[near]
         if not near.any():
             return []
@@ -354,7 +368,15 @@ def _joined(kept: list[Brackets]) -> list[Brackets]:
 
 
 def refined(found: Brackets, surface: Surface) -> Crossings:
-    """The root in each bracket to rounding: Newton's step where it stays inside, else the middle.
+    """Where h is zero in each bracket that has a root."""
+    theta, root = _root_of(found, surface)
+    rows, rates = found.series.at(theta)
+    _, slopes = surface.slopes(rows, rates, found.motions)
+    return Crossings(found.motions[root], rows[root, -1], rows[root, :-1], slopes[root])
+
+
+def _root_of(found: Brackets, surface: Surface) -> tuple[Floats, Truths]:
+    """The root in each bracket to rounding: Newton's step where it stays inside, else the middle; and if it is one.
 
     Where h changes its sign at a pole it has none: there it is farther from zero than at both ends.
     """
@@ -371,10 +393,8 @@ def refined(found: Brackets, surface: Surface) -> Crossings:
         change, theta = np.abs(following - theta), following
         if (change <= 4.0 * np.spacing(theta)).all():
             break
-    rows, rates = series.at(theta)
-    values, slopes = surface.slopes(rows, rates, found.motions)
-    root = ~(np.abs(values - found.shift) > np.maximum(np.abs(found.left), np.abs(found.right)))
-    return Crossings(found.motions[root], rows[root, -1], rows[root, :-1], slopes[root])
+    values, _ = surface.slopes(*series.at(theta), found.motions)
+    return theta, ~(np.abs(values - found.shift) > np.maximum(np.abs(found.left), np.abs(found.right)))
 
 
 def path_of(problem: Problem, steps: Steps, most: int, cancelled: Flag) -> Floats:
