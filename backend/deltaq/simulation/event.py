@@ -20,7 +20,7 @@ from .problem import Floats, Problem
 
 ROUNDS, PARTS = 12, 32  # each round looks at so many parts of what the one before left: 32¹² > 2⁵³
 CLOSER = 6  # rounds for a minimum, each an eighth of the part before; its value is flat
-NUDGE, LEAST_NUDGE = 0.01, 1e-6  # of the step, and seconds
+NUDGE, LEAST_NUDGE = 0.01, 1e-7  # of the step, and of the span
 
 
 @dataclass(frozen=True)
@@ -174,7 +174,7 @@ def _falls(step: Step) -> Iterator[Event]:
 
 def _derivatives(step: Step, index: int, time: Floats, state: Floats) -> tuple[float, float]:
     """The first two time derivatives of a value along the motion; a coarse method's polynomial has no second one."""
-    near = NUDGE * step.size + LEAST_NUDGE
+    near = NUDGE * step.size + LEAST_NUDGE * step.problem.t_end
     ahead = np.array([-near, 0.0, near])[:, None]
     halfway = state + 0.5 * ahead * _flow(step.problem, np.repeat(time, 3), np.repeat(state, 3, axis=0))
     rates = _flow(step.problem, time + 0.5 * ahead[:, 0], halfway)

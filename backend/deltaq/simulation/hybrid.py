@@ -32,7 +32,7 @@ MOST = 5000  # events in one run
 AT_ONCE = 50  # events at the same time, by rounding
 CROWD, CROWDED = 400, 1e-4  # so many switches in such a part of the span: the state slides along a kink
 IN_A_STEP, ALWAYS = 2.0, 1000  # switches in one given step on average, and in any run
-NEAR = 1e-5  # s, of differences
+NEAR = 1e-6  # of the span, of differences
 SAME = 1e-13  # of the time
 SHAKE = 8.0 * 2.0**-52  # of a rate, and of what it changes by up to the time
 
@@ -263,12 +263,12 @@ def _falling(current: ModeState, event: Event) -> Event:
     """An event that ends the motion, with the first two derivatives of its value along the motion by differences."""
     n = len(current.q)
     at = current.at(event.time, event.state[:n].copy(), event.state[n : 2 * n].copy())
-    rates = at.accelerations
+    rates, near = at.accelerations, NEAR * current.problem.t_end
     before, now, after = (
         at.at(at.time + h, at.q + h * (at.v + 0.5 * h * rates), at.v + h * rates).watched[event.index]
-        for h in (-NEAR, 0.0, NEAR)
+        for h in (-near, 0.0, near)
     )
-    return replace(event, fall=(after - before) / (2.0 * NEAR), bend=(after - 2.0 * now + before) / NEAR**2)
+    return replace(event, fall=(after - before) / (2.0 * near), bend=(after - 2.0 * now + before) / near**2)
 
 
 def _ended(record: _Record, times: Floats, modes: Modes, event: Event, found: Run) -> Run:

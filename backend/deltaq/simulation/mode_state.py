@@ -53,7 +53,10 @@ class Facts(NamedTuple):
 
 @dataclass(frozen=True)
 class ModeState:
-    """A state (q, q̇) at a time, in a mode, of a problem in modes; `q` and `v` have shape (n,)."""
+    """A state (q, q̇) at a time, in a mode, of a problem in modes; `q` and `v` have shape (n,).
+
+    What is small is so beside the largest place or rate, which count as `least` at least.
+    """
 
     problem: Problem
     modes: Modes
@@ -61,6 +64,7 @@ class ModeState:
     q: Floats
     v: Floats
     mode: Mode
+    least: tuple[float, float] = (1.0, 1.0)
 
     @cached_property
     def row(self) -> Floats:
@@ -129,8 +133,18 @@ class ModeState:
     @property
     def touching(self) -> list[int]:
         """The contacts that are closed, but for rounding."""
-        size = TOUCHING * size_of(self.q)
+        size = TOUCHING * self.size_of_places
         return [j for j, gap in enumerate(self.facts.gaps) if gap <= self.scale(j) * size]
+
+    @cached_property
+    def size_of_places(self) -> float:
+        """The largest |q|."""
+        return size_of(self.q, self.least[0])
+
+    @cached_property
+    def size_of_rates(self) -> float:
+        """The largest |q̇|."""
+        return size_of(self.v, self.least[1])
 
     def scale(self, contact: int) -> float:
         """How far a gap changes with the coordinates, at most; 1 where it does not."""
@@ -150,11 +164,11 @@ class ModeState:
 
     def at(self, time: float, q: Floats, v: Floats) -> ModeState:
         """Another state in the same mode; `q` and `v` have shape (n,)."""
-        return ModeState(self.problem, self.modes, time, q, v, self.mode)
+        return ModeState(self.problem, self.modes, time, q, v, self.mode, self.least)
 
     def within(self, mode: Mode) -> ModeState:
         """The same state in another mode."""
-        return ModeState(self.problem, self.modes, self.time, self.q, self.v, mode)
+        return ModeState(self.problem, self.modes, self.time, self.q, self.v, mode, self.least)
 
     def with_flags(self, flags: tuple[float, ...]) -> ModeState:
         """The same state with other rows held."""
@@ -173,6 +187,6 @@ def _solved(mass: Floats, forces: Floats) -> Floats:
     return np.asarray(np.linalg.solve(mass, forces))
 
 
-def size_of(values: Floats) -> float:
-    """The largest absolute value, 1 at least; `values` has shape (n,)."""
-    return float(max((1.0, *map(abs, values.tolist()))))
+def size_of(values: Floats, least: float) -> float:
+    """The largest absolute value, or what it is at least; `values` has shape (n,)."""
+    return float(max((least, *map(abs, values.tolist()))))

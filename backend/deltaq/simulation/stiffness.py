@@ -10,6 +10,7 @@ from .derivatives import derivatives
 from .problem import Floats, Problem
 
 NUDGE = 1e-6
+SMALLEST = 1e-7  # of a place: where all are smaller, they say nothing of how far a motion goes
 NOISE = 1e-9  # of a force; what changes less with time is rounding
 PLACES, GOLDEN = 64, 0.6180339887498949
 DEAD = 50.0  # what shrinks by this power of 1/e or more is not worth following
@@ -45,6 +46,21 @@ def eigenvalues(problem: Problem, time: float, state: Floats) -> np.ndarray:
     return np.asarray(np.linalg.eigvals(jacobian)) if np.isfinite(jacobian).all() else np.zeros(1, dtype=complex)
 
 
+def _sizes(problem: Problem, states: Floats) -> Floats:
+    """How much of each component is much: that of angles is a radian, and that of places by where the motion is.
+
+    A scene in micrometres has the eigenvalues that it has in metres. Where a coordinate is at zero, the others tell;
+    rates count by these, and by the span. `states` has shape (states, 2n); returns shape (2n,).
+    """
+    n = problem.degrees
+    is_angle = np.array(problem.angular or (False,) * n)
+    place, rate = (float(np.abs(part[:, ~is_angle]).max(initial=0.0)) for part in (states[:, :n], states[:, n:]))
+    far = next((each for each in (place, rate * problem.t_end) if each > SMALLEST), 1.0)
+    places, per_span = np.where(is_angle, 1.0, far), 1.0 / problem.t_end
+    turning = float(np.abs(states[:, n:][:, is_angle]).max(initial=0.0))
+    return np.concatenate([places, np.maximum(np.where(is_angle, turning, rate), places * per_span)])
+
+
 def drive(problem: Problem, state: Floats) -> float:
     """How fast the forces change that time alone changes, in 1/s: ω² = ⟨(∂f/∂t)²⟩ / ⟨(f − ⟨f⟩)²⟩ at one state.
 
@@ -67,7 +83,7 @@ def jacobians(problem: Problem, times: Floats, states: Floats) -> Floats:
     `times` has shape (states,), `states` shape (states, 2n); returns shape (states, 2n, 2n).
     """
     count, width = states.shape
-    nudges = NUDGE * np.maximum(1.0, np.abs(states))
+    nudges = NUDGE * np.maximum(_sizes(problem, states), np.abs(states))
     steps = nudges[:, :, None] * np.eye(width)
     rows = np.concatenate([states[:, None, :] + steps, states[:, None, :] - steps]).reshape(-1, width)
     ahead, behind = derivatives(problem, np.tile(np.repeat(times, width), 2), rows)[:, :width].reshape(

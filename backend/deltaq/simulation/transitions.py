@@ -12,13 +12,14 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
+from contextlib import suppress
 from dataclasses import dataclass, replace
 from typing import TypeAlias
 
 import numpy as np
 
 from ..model.modes import Modes
-from .mode_state import TOUCHING, Facts, Mode, ModeState, size_of
+from .mode_state import TOUCHING, Facts, Mode, ModeState
 from .problem import Floats, Problem
 from .sliding import SLACK, draws, on_side, rate_of, settled, side_left_to, unkept
 
@@ -26,7 +27,7 @@ STILL = 1e-12  # a rate, relative to the largest
 HEIGHT = 1e-15  # by which rounding lifts a rebound, relative to the coordinates
 LOWEST = 1e-12  # the highest rebound that is taken for rest, relative to the coordinates; of what loses nothing, too
 OFF_KINK = 1e-14  # how far a motion goes off a kink that is taken for rest in it, relative to the coordinates
-LATE = 1e-6  # s; so much behind the zero of a gap its event is found at most
+LATE = 1e-7  # of the span; so much behind the zero of a gap its event is found at most
 ROUNDING = 1e-15
 TICKS = 4.0  # of the time: units in the last place by which an event may be off
 HARDLY = 1e-13  # of a rate of slipping
@@ -34,6 +35,7 @@ TINY = 1e-9  # of the rates: what rounding left at an event is no more
 NOTHING = 1e-12  # of what an impulse would do without constraints: they take all of it
 NUDGE = 1e-6  # of the coordinates: for slopes by differences, which are right to about as much
 ALONG = 1e-9  # of a row: what is left of it besides the rows of contacts
+ROOMY = 1e3  # of what a scene's places and rates are at first: what they may become
 MOST_IMPACTS = 1000  # one after the other at one time
 
 
@@ -87,10 +89,26 @@ def begun(problem: Problem, modes: Modes) -> ModeState:
     n, state, empty = problem.degrees, problem.state, _empty(modes)
     own = with_signs(problem, modes)
     current = ModeState(own, modes, 0.0, state[:n].copy(), state[n : 2 * n].copy(), empty)
+    current = replace(current, least=_least_sizes(current))
     kinks, pins = (tuple(-1.0 if s < 0.0 else 1.0 for s in each) for each in (current.facts.kinks, current.facts.pins))
     current = current.within(empty._replace(kinks=kinks, slips=(*empty.slips[: modes.first_pin], *pins)))
     closed = current.touching
     return _resolved(_after_impacts(current, closed[0]) if closed else current, frozenset(closed), None)
+
+
+def _least_sizes(current: ModeState) -> tuple[float, float]:
+    """What places and rates count as, at least, at this start: 1, or less if the scene is much smaller or slower.
+
+    Where it is, and how fast it may become over its span or by what accelerates it, tell. Angles count by a radian.
+    """
+    span, is_angle, pull = current.problem.t_end, any(current.problem.angular), 0.0
+    speed = float(np.abs(current.v).max(initial=0.0))
+    with suppress(np.linalg.LinAlgError):  # without an inverse of M nothing is known; the run tells it
+        pull = float(np.abs(current.accelerations).max(initial=0.0))
+    place = 1.0 if is_angle else float(np.abs(current.q).max(initial=0.0)) or speed * span
+    rate = max(speed, place / span, math.sqrt(pull * place))
+    least_place, least_rate = (min(1.0, ROOMY * each) if 0.0 < each < math.inf else 1.0 for each in (place, rate))
+    return least_place, least_rate
 
 
 def passed(current: ModeState, watched: int) -> ModeEvent:
@@ -111,7 +129,8 @@ def passed(current: ModeState, watched: int) -> ModeEvent:
         return _come_or_gone(current, place // 2)
     j = place - 2 * modes.bounded
     if mode.flags[modes.bounded + j]:
-        return _resolved(current, frozenset(), modes.bounded + j), _name(modes, j), "release"
+        row = modes.bounded + j  # a gap that was kept has no rate but what steps left of it
+        return _resolved(_without_rate(current, row), frozenset(), row), _name(modes, j), "release"
     return _met(current, j)
 
 
@@ -151,7 +170,7 @@ def _lies_in(current: ModeState, row: int) -> bool:
     rate, pull = current.facts.w[row], -float(np.sign(current.facts.w[row])) * rate_of(behind, row)
     slope = float(np.abs(current.facts.a[row]).max())
     return bool(
-        draws(current, row) and pull > 0.0 and rate * rate / (2.0 * pull) <= OFF_KINK * slope * size_of(current.q)
+        draws(current, row) and pull > 0.0 and rate * rate / (2.0 * pull) <= OFF_KINK * slope * current.size_of_places
     )
 
 
@@ -161,7 +180,7 @@ def _without_rate(current: ModeState, row: int) -> ModeState:
     if not along @ current.moved_by(along) > 0.0:
         return current
     pushed = current.pushed(row, -current.facts.w[row])
-    return pushed if np.abs(pushed.v - current.v).max() <= TINY * size_of(current.v) else current
+    return pushed if np.abs(pushed.v - current.v).max() <= TINY * current.size_of_rates else current
 
 
 def _met(current: ModeState, contact: int) -> ModeEvent:
@@ -181,7 +200,7 @@ def _contact_before(current: ModeState, value: Callable[[Facts], float], sign: f
 
     `value` is that of the kink, `sign` the side that the motion is on.
     """
-    facts, step = current.facts, NUDGE * size_of(current.q)
+    facts, step = current.facts, NUDGE * current.size_of_places
     beside = [current.at(current.time, current.q + step * each, current.v) for each in np.eye(len(current.q))]
     slope = np.array([value(each.facts) - value(facts) for each in beside])
     for j in current.touching:
@@ -204,7 +223,7 @@ def _closed(current: ModeState, contact: int) -> ModeState:
     found = _at_zero(current, facts.gaps[contact], facts.w[row], bend)
     gap, along = found.facts.gaps[contact], found.moved_by(found.facts.a[row])
     lift = float(found.facts.a[row] @ along)
-    if not (-TOUCHING * found.scale(contact) * size_of(found.q) <= gap < 0.0 and lift > 0.0):
+    if not (-TOUCHING * found.scale(contact) * found.size_of_places <= gap < 0.0 and lift > 0.0):
         return found
     return found.at(found.time, found.q - gap / lift * along, found.v)
 
@@ -217,7 +236,7 @@ def _at_zero(current: ModeState, value: float, rate: float, bend: float) -> Mode
     """
     square = rate * rate - 2.0 * bend * value
     late = 2.0 * value / (rate - math.sqrt(square)) if rate < 0.0 and square >= 0.0 else 0.0
-    if not 0.0 < late < LATE:
+    if not 0.0 < late < LATE * current.problem.t_end:
         return current
     rates = current.accelerations
     q, v = current.q - late * (current.v - 0.5 * late * rates), current.v - late * rates
@@ -235,7 +254,7 @@ def _after_impacts(current: ModeState, first: int) -> ModeState:
     for _ in range(MOST_IMPACTS):
         rates = {j: free.facts.w[first_row + j] for j in touching}
         j = min(rates, key=lambda each: rates[each] / free.scale(each))
-        if rates[j] >= -STILL * free.scale(j) * size_of(free.v):
+        if rates[j] >= -STILL * free.scale(j) * free.size_of_rates:
             return free.within(current.mode)
         e = 0.0 if _rests(free, first_row + j, j) else free.facts.restitutions[j]
         free = free.pushed(first_row + j, -(1.0 + e) * rates[j])
@@ -257,7 +276,7 @@ def _rests(current: ModeState, row: int, contact: int) -> bool:
     pull = -float(facts.a[row] @ current.accelerations + facts.bias[row])
     if not pull > 0.0:
         return False
-    height, lost, size = rebound * rebound / (2.0 * pull) / current.scale(contact), 1.0 - e * e, size_of(current.q)
+    height, lost, size = rebound * rebound / (2.0 * pull) / current.scale(contact), 1.0 - e * e, current.size_of_places
     rounding = TICKS * math.ulp(current.time) * abs(float(facts.w[row] - facts.a[row] @ current.v))
     unknown = rounding / current.scale(contact)  # where the contact is that moves with the time
     return height <= LOWEST * size + unknown and height * lost <= HEIGHT * size + unknown
@@ -270,7 +289,7 @@ def _resolved(current: ModeState, closed: frozenset[int], released: int | None, 
     """
     modes, bounded = current.modes, current.modes.bounded
     held = _at_rest(current, closed, released, come)
-    facts, size = current.facts, size_of(current.v)
+    facts, size = current.facts, current.size_of_rates
     slips = [
         s if held[row] or row >= modes.first_pin or abs(facts.w[row]) <= HARDLY * size else float(np.sign(facts.w[row]))
         for row, s in enumerate(current.mode.slips)
@@ -302,14 +321,14 @@ def _resolved(current: ModeState, closed: frozenset[int], released: int | None, 
 
 def _at_rest(current: ModeState, closed: frozenset[int], released: int | None, come: int | None) -> list[bool]:
     """By row, whether it may be held: what slips does not, and contacts that touch and do not open."""
-    modes, facts, size, touching = current.modes, current.facts, size_of(current.v), current.touching
+    modes, facts, size, touching = current.modes, current.facts, current.size_of_rates, current.touching
     held = [
         abs(facts.w[row]) <= HARDLY * size or row == come or bool(current.mode.flags[row])
         for row in range(modes.bounded)
     ]
     for row in range(modes.first_pin, modes.bounded):
         slope = float(np.abs(facts.a[row]).max())
-        held[row] &= abs(facts.pins[row - modes.first_pin]) <= ROUNDING * slope * size_of(current.q)
+        held[row] &= abs(facts.pins[row - modes.first_pin]) <= ROUNDING * slope * current.size_of_places
     for j in range(len(modes.contacts)):
         row = modes.bounded + j
         touches = j in closed or current.mode.flags[row] or j in touching
@@ -383,7 +402,7 @@ def with_offsets(current: ModeState) -> ModeState:
     ending = len(modes.ending)
     first = ending + len(modes.kinks)
     pins, last = first + 2 * modes.first_pin, first + 2 * modes.bounded
-    of_rates, of_places = HARDLY * size_of(current.v), ROUNDING * size_of(current.q)
+    of_rates, of_places = HARDLY * current.size_of_rates, ROUNDING * current.size_of_places
     offsets = []
     for place, value in enumerate(values):
         room = of_rates if first <= place < pins else of_places
