@@ -249,6 +249,18 @@ def test_a_fork_is_told_as_one_by_whatever_fails_there(held: Scene, method: str,
     assert last[0] == pytest.approx(goal, abs=0.03)
 
 
+@pytest.mark.parametrize(
+    ("angle", "rate", "tolerance"),
+    [(0.2, 2.0, 1e-2), (0.2, 1.7, 3e-4), (0.3, 2.0, 3e-3), (0.3, 2.0, 1e-4), (0.31, 1.7, 1e-3), (0.4, 2.4, 3e-3)],
+)
+def test_a_fork_between_two_ends_of_steps_is_seen(angle: float, rate: float, tolerance: float) -> None:
+    """Long steps go over it: a state between, put on the constraints, may come to lie on the other branch."""
+    given = problem_of(equal_slider_crank(), 3.0, 61)
+    values, rates = (angle, angle, 2.0 * np.cos(angle)), (rate, rate, -2.0 * rate * np.sin(angle))
+    began = consistent(replace(given, values=values, rates=rates))
+    assert simulate(began, get_method("radau-5"), tolerance=tolerance).outcome.status == "singular_constraints"
+
+
 def test_initial_values_are_moved_onto_the_constraints_and_told() -> None:
     problem = problem_of(pendulum(1.2, 0.0, 0.5, 0.7), 1.0)
     assert problem.moved is not None

@@ -7,13 +7,15 @@ constraints determine is a quotient of what both tend to zero.
 from __future__ import annotations
 
 import numpy as np
+from numpy.typing import NDArray
 
 from .problem import Floats, Problem
 
 PART = 0.05  # of the largest independence that the motion had
 CLOSE = 1e-5  # the same, where a run has gone on
-HALTING = 1e-3  # steps, of the median: a fork shortens them
+HALTING = 1e-3  # steps, of the median or, where more than half of all are at the fork, of the mean: it shortens them
 NOTHING = 1e-9  # singular values relative to the largest that are rounding errors
+PARTS = 64  # of a step in which the rows of A have turned far: smooth ones turn little from part to part
 
 
 def is_at_fork(problem: Problem, times: Floats, states: Floats, reached: float) -> bool:
@@ -37,12 +39,40 @@ def fork_passed(problem: Problem, times: Floats, states: Floats) -> float | None
     if not problem.is_constrained or len(times) < 3:
         return None
     steps = np.diff(times)
-    halting = np.flatnonzero(steps <= HALTING * np.median(steps))
+    halting = np.flatnonzero(steps <= HALTING * max(np.median(steps), steps.mean()))
     if not halting.size:
         return None
     left = _independence(problem, times, states)
     forks = halting[np.minimum(left[halting], left[halting + 1]) <= CLOSE]
     return float(times[forks[0]]) if forks.size else None
+
+
+def fork_crossed(problem: Problem, times: Floats, states: Floats) -> float | None:
+    """The start of the first step within which det(A₀A₁ᵀ) changes its sign: a fork lies there. None if there is none.
+
+    The steps of a run are looked at by their cubics in parts, for where rows only turn far, no part shows it. `times`,
+    shape (mesh,), and `states`, shape (mesh, 2n), are its whole mesh.
+    """
+    if not problem.is_constrained or problem.rank < len(problem.model.layout.multipliers) or len(times) < 2:
+        return None
+    for k in np.flatnonzero(_turned(_rows(problem, times, states))):
+        if _turned(_rows(problem, *_between(times[k : k + 2], states[k : k + 2], problem.degrees))).any():
+            return float(times[k])
+    return None
+
+
+def _turned(rows: Floats) -> NDArray[np.bool_]:
+    """Whether det(A₀A₁ᵀ) is below zero from each A to the next; `rows` have shape (states, m, n)."""
+    return np.asarray(np.linalg.det(rows[:-1] @ rows[1:].transpose(0, 2, 1)) < 0.0)
+
+
+def _between(times: Floats, states: Floats, n: int) -> tuple[Floats, Floats]:
+    """Times and states of the cubic through both ends of a step, which have shapes (2,) and (2, 2n)."""
+    h, x = times[1] - times[0], np.linspace(0.0, 1.0, PARTS + 1)[:, None]
+    (q0, v0), (q1, v1) = ((each[:n], h * each[n:]) for each in states[:, : 2 * n])
+    c2, c3 = 3.0 * (q1 - q0) - 2.0 * v0 - v1, v0 + v1 - 2.0 * (q1 - q0)
+    values, rates = q0 + x * (v0 + x * (c2 + x * c3)), (v0 + x * (2.0 * c2 + 3.0 * x * c3)) / h
+    return times[0] + h * x[:, 0], np.hstack([values, rates])
 
 
 def _independence(problem: Problem, times: Floats, states: Floats) -> Floats:

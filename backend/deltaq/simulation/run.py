@@ -9,7 +9,7 @@ import numpy as np
 
 from .constraints import Finish, Reactions, is_locked, pivot_of
 from .event import Approach, Event, approaches, first_event, quick_event
-from .forks import fork_passed, is_at_fork
+from .forks import fork_crossed, fork_passed, is_at_fork
 from .integration import Flag, KernelArguments, Room, run_kernel
 from .kernels.loop import Result
 from .kernels.motion import (
@@ -238,9 +238,9 @@ def _found(arguments: KernelArguments, plan: Plan, result: Result, wall_time: fl
             result = result._replace(outcome=NEWTON_FAILED, reached=float(times[len(out)]), samples=len(out))
         good = len(out)
     mesh_times, mesh_states = plan.times[: plan.progress[COUNT]], plan.states[: plan.progress[COUNT]]
-    result = _forked(problem, times[:good], out[:good, : 2 * problem.degrees], mesh_times, mesh_states, result)
-    good = min(good, result.samples)
     stride = int(plan.progress[STRIDE])
+    result = _forked(problem, times[:good], out[:good, : 2 * problem.degrees], mesh_times, mesh_states, result, stride)
+    good = min(good, result.samples)
     if stride > 1:
         mesh_times, mesh_states = _to_the_end(mesh_times, mesh_states, times[:good], out[:good])
     return Run(
@@ -271,17 +271,26 @@ def _to_the_end(mesh_times: Floats, mesh_states: Floats, times: Floats, states: 
 
 
 def _forked(
-    problem: Problem, times: Floats, states: Floats, mesh_times: Floats, mesh_states: Floats, result: Result
+    problem: Problem,
+    times: Floats,
+    states: Floats,
+    mesh_times: Floats,
+    mesh_states: Floats,
+    result: Result,
+    stride: int,
 ) -> Result:
     """The result, saying whether the run ended at a fork of the constraints, or where it should have done so.
 
-    `times`, shape (samples,), and `states`, shape (samples, 2n), are the samples, the others the mesh.
+    `times`, shape (samples,), and `states`, shape (samples, 2n), are the samples, the others the mesh, of every
+    `stride`-th step.
     """
     if result.outcome in UNSOLVED:
         later = mesh_times > times[-1] if len(times) else mesh_times >= 0.0
         known, seen = np.append(times, mesh_times[later]), np.vstack([states, mesh_states[later]])
         return result._replace(outcome=LOCKED) if is_at_fork(problem, known, seen, result.reached) else result
     passed = fork_passed(problem, mesh_times, mesh_states) if result.outcome in (FINE, EVENT) else None
+    if passed is None and stride == 1 and result.outcome in (FINE, EVENT):
+        passed = fork_crossed(problem, mesh_times, mesh_states)
     if passed is None:
         return result
     return result._replace(outcome=LOCKED, reached=passed, samples=int(np.searchsorted(times, passed, side="right")))
