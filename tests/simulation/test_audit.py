@@ -17,7 +17,7 @@ from deltaq.simulation.driver import simulate
 from deltaq.simulation.kernels.motion import FINE
 from deltaq.simulation.library import get_method, method_ids
 from deltaq.simulation.pieces import Pieces, Stretch
-from deltaq.simulation.run import Steps
+from deltaq.simulation.run import Mesh, Steps
 from deltaq.simulation.run import run as run_once
 from deltaq.simulation.service import problem_of, run
 from deltaq.simulation.trajectory import Trajectory
@@ -169,6 +169,22 @@ def test_what_was_seen_on_a_path_is_not_taken_for_the_start() -> None:
     assert len(path.mesh_times) > 2
     audit.after(path, 1e-6)
     assert audit.before(1e-6) == before
+
+
+@pytest.mark.parametrize("count", [1, 2, 4])
+@pytest.mark.parametrize("place", [0.5, 0.77, 0.8, 0.9, 0.99])
+def test_a_hill_is_seen_from_steps_as_long_as_half_a_swing(place: float, count: int) -> None:
+    """x = sin t from 0 to 0: the cubic through the ends of a single step comes to π/4 only."""
+    energy = "m*x^2/2 + 0.1*exp(-((x - b)/w)^2)"
+    swing = scene(
+        {"x": (0.0, 1.0)},
+        {"m": 1.0, "b": place, "w": 1e-3},
+        {"mass": ("m", ["x", "0"])},
+        [{"kind": "potential", "energy": energy}],
+    )
+    problem, times = problem_of(swing, math.pi), np.linspace(0.0, math.pi, count + 1)
+    mesh = Mesh(problem, 0.0, times, np.column_stack([np.sin(times), np.cos(times)]), 1)
+    assert Audit(problem, get_method("dop853")).after_each([mesh], 1e-6)
 
 
 def test_a_narrow_wall_on_the_way_is_seen() -> None:

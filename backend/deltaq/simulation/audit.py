@@ -16,6 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..model.tape import Tape
+from .derivatives import accelerations
 from .event import event_values
 from .kernels.audit import DEEPEST, GROUP, AuditWorkspace, Blind, Path, Rules, inspect, survey_times
 from .kernels.intervals import Ranges, TapeArrays
@@ -314,8 +315,8 @@ def _make_workspace(operations: int) -> AuditWorkspace:
 def _paths(meshes: Sequence[Mesh]) -> list[Path]:
     """Meshes of two ends of steps and more as paths; q̈ of their cubics jumps at the ends of steps.
 
-    At the outer ones it is taken for as large as next to them. A motion with many events has many meshes, which are
-    computed together.
+    At the outer ones it is taken for as large as next to them; a single step has no neighbour, and is held against the
+    motion's own q̈. A motion with many events has many meshes, which are computed together.
     """
     n, counts = meshes[0].problem.degrees, [len(each.mesh_times) for each in meshes]
     times = np.concatenate([each.mesh_times for each in meshes])
@@ -326,7 +327,22 @@ def _paths(meshes: Sequence[Mesh]) -> list[Path]:
     jumps = _jumps(times, q, v, 1e-13 * meshes[0].problem.t_end)
     jumps[firsts] = jumps[lasts] = 0.0
     jumps[firsts], jumps[lasts] = jumps[firsts + 1], jumps[lasts - 1]
+    for mesh, first, last in zip(meshes, firsts.tolist(), lasts.tolist(), strict=True):
+        if last == first + 1:
+            jumps[first] = jumps[last] = _off_by(mesh)
     return [Path(times[i:j], q[i:j], v[i:j], jumps[i:j]) for i, j in zip(firsts.tolist(), behind.tolist(), strict=True)]
+
+
+def _off_by(mesh: Mesh) -> Floats:
+    """How far q̈ of the cubic of a single step is from that of the motion at either end, at most: shape (n,)."""
+    n, times, states = mesh.problem.degrees, mesh.mesh_times, mesh.mesh_states
+    (before, behind), h = states, float(times[1] - times[0])
+    if not h > 1e-13 * mesh.problem.t_end:
+        return np.zeros(n)
+    slope, v, w = (behind[:n] - before[:n]) / h, before[n : 2 * n], behind[n : 2 * n]
+    of_cubic = np.array([6.0 * slope - 4.0 * v - 2.0 * w, 2.0 * v + 4.0 * w - 6.0 * slope]) / h
+    found = np.abs(of_cubic - accelerations(mesh.problem, times, states)).max(axis=0)
+    return np.where(np.isfinite(found), found, 0.0)
 
 
 def _jumps(times: Floats, q: Floats, v: Floats, shortest: float) -> Floats:
