@@ -122,6 +122,11 @@ def is_locked(memory: Floats) -> bool:
     return bool(_integers(memory)[kernel.LOCKS])
 
 
+def seems_turned(memory: Floats) -> bool:
+    """Whether the constraints looked turned round at the ends of a step that was taken; `memory` has shape (size,)."""
+    return bool(_integers(memory)[kernel.TURNS])
+
+
 def pivot_of(memory: Floats) -> float:
     """The smallest pivot of M and of AM⁻¹Aᵀ met, relative to its diagonal entry; `memory` has shape (size,)."""
     return float(memory[-1])

@@ -7,7 +7,7 @@ from time import perf_counter
 
 import numpy as np
 
-from .constraints import Finish, Reactions, is_locked, pivot_of
+from .constraints import Finish, Reactions, is_locked, pivot_of, seems_turned
 from .event import Approach, Event, approaches, first_event, quick_event
 from .forks import fork_crossed, fork_passed, is_at_fork
 from .integration import Flag, KernelArguments, Room, run_kernel
@@ -239,7 +239,9 @@ def _found(arguments: KernelArguments, plan: Plan, result: Result, wall_time: fl
         good = len(out)
     mesh_times, mesh_states = plan.times[: plan.progress[COUNT]], plan.states[: plan.progress[COUNT]]
     stride = int(plan.progress[STRIDE])
-    result = _forked(problem, times[:good], out[:good, : 2 * problem.degrees], mesh_times, mesh_states, result, stride)
+    turned = problem.is_constrained and stride == 1 and seems_turned(arguments.motion.memory)
+    known_states = out[:good, : 2 * problem.degrees]
+    result = _forked(problem, times[:good], known_states, mesh_times, mesh_states, result, turned=turned)
     good = min(good, result.samples)
     if stride > 1:
         mesh_times, mesh_states = _to_the_end(mesh_times, mesh_states, times[:good], out[:good])
@@ -277,19 +279,20 @@ def _forked(
     mesh_times: Floats,
     mesh_states: Floats,
     result: Result,
-    stride: int,
+    *,
+    turned: bool,
 ) -> Result:
     """The result, saying whether the run ended at a fork of the constraints, or where it should have done so.
 
-    `times`, shape (samples,), and `states`, shape (samples, 2n), are the samples, the others the mesh, of every
-    `stride`-th step.
+    `times`, shape (samples,), and `states`, shape (samples, 2n), are the samples, the others the mesh; where the
+    constraints `turned` within a step, it has all of them.
     """
     if result.outcome in UNSOLVED:
         later = mesh_times > times[-1] if len(times) else mesh_times >= 0.0
         known, seen = np.append(times, mesh_times[later]), np.vstack([states, mesh_states[later]])
         return result._replace(outcome=LOCKED) if is_at_fork(problem, known, seen, result.reached) else result
     passed = fork_passed(problem, mesh_times, mesh_states) if result.outcome in (FINE, EVENT) else None
-    if passed is None and stride == 1 and result.outcome in (FINE, EVENT):
+    if passed is None and turned and result.outcome in (FINE, EVENT):
         passed = fork_crossed(problem, mesh_times, mesh_states)
     if passed is None:
         return result

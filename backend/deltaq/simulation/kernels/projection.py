@@ -22,6 +22,7 @@ from .system import (
     IS_UNDER_WAY,
     POWERED,
     RANK,
+    TURNS,
     System,
     block_at,
     place_of_rows,
@@ -236,6 +237,7 @@ def finish_step(system: System, t: float, h: float, ends: Ends) -> int:
     if system.head[POWERED]:
         new_derivative[2 * n] = power_of(system)
     if not turning(system, system.responses) > 0.0:
+        system.head[TURNS] += 1
         if is_locked_between(system, t, h, ends):
             return LOCKED
         take_state(system, t + h, new)
