@@ -225,5 +225,7 @@ def _answer(mass: Floats, rows: Floats, right: Floats) -> Floats:
     responses = _solved(mass, rows.T)
     share = rows @ responses
     inverse = _scales(share)
-    scaled = np.linalg.pinv(share * inverse * inverse[:, None], rcond=SMALLEST_SHARE, hermitian=True)
-    return np.asarray(responses @ (inverse * (scaled @ (inverse * right))))
+    values, vectors = np.linalg.eigh(share * inverse * inverse[:, None])
+    kept = values > SMALLEST_SHARE  # those that count as independent
+    inside = (vectors[:, kept].T @ (inverse * right)) / values[kept]
+    return np.asarray(responses @ (inverse * (vectors[:, kept] @ inside)))
