@@ -14,7 +14,8 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from deltaq.mechanics.library import load_scene, scene_ids
-from deltaq.simulation.driver import simulate
+from deltaq.simulation.consistency import consistent
+from deltaq.simulation.driver import is_suitable, simulate
 from deltaq.simulation.library import get_method, method_ids
 from deltaq.simulation.problem import Problem
 from deltaq.simulation.reference import Reference, reference
@@ -71,7 +72,7 @@ def _line(name: str, scores: list[Score], width: int = 24) -> None:
 def _scores(scene: str, span: float) -> Iterator[Score]:
     problem = replace(_elsewhere(problem_of(load_scene(scene), span, SAMPLES), f"{scene} {span}"), step_limit=LIMIT)
     trusted = reference(replace(problem, step_limit=2_000_000))
-    for identifier in method_ids():
+    for identifier in (each for each in method_ids() if is_suitable(problem, get_method(each))):
         for accuracy in ACCURACIES:
             found = simulate(problem, get_method(identifier), **accuracy)
             label = f"{span:g} s, " + ", ".join(f"{key} {value:g}" for key, value in accuracy.items())
@@ -81,20 +82,21 @@ def _scores(scene: str, span: float) -> Iterator[Score]:
 
 
 def _elsewhere(problem: Problem, seed: str) -> Problem:
-    """The problem from initial values nearby, the same in every run."""
+    """The problem from initial values nearby that keep its constraints, the same in every run."""
     source = random.Random(seed)
     values = tuple(value * (1.0 + source.uniform(-SHIFT, SHIFT)) for value in problem.values)
     rates = tuple(rate * (1.0 + source.uniform(-SHIFT, SHIFT)) for rate in problem.rates)
-    return replace(problem, values=values, rates=rates)
+    moved = replace(problem, values=values, rates=rates)
+    return consistent(moved) if problem.is_constrained else moved
 
 
 def _score(found: Trajectory, trusted: Reference, scene: str, label: str) -> Score | None:
     """None where nothing can be said: no sample with an error above that of the reference."""
     assert found.estimate is not None
-    count = min(len(found.times), len(trusted.times))
-    known = found.times[:count] <= found.trusted_until
-    true, doubt = trusted.errors_of(found)[known], trusted.errors[:count][known]
-    told = found.estimate.errors[:count][known]
+    own, other = trusted.common(found.times)
+    known = found.times[other] <= found.trusted_until
+    true, doubt = trusted.errors_of(found)[known], trusted.errors[own][known]
+    told = found.estimate.errors[other][known]
     counts = true > 10 * doubt
     if not counts.any():
         return None

@@ -198,14 +198,35 @@ def test_the_sleigh_turns_its_spin_into_speed() -> None:
     """v → √(v₀² + (J + ma²)ω₀²/m), v = c tanh(κt + artanh v₀/c): Bloch, Nonholonomic Mechanics and Control, §1.7."""
     speed, spin, m, inertia, a = 0.2, 1.5, 2.0, 0.3, 0.4
     found = moved(sleigh(speed, spin), 10.0)
-    limit = np.sqrt(speed**2 + (inertia + m * a**2) / m * spin**2)
-    v = np.cos(found.values[:, 2]) * found.rates[:, 0] + np.sin(found.values[:, 2]) * found.rates[:, 1]
-    known = limit * np.tanh(m * a * limit / (inertia + m * a**2) * found.times + np.arctanh(speed / limit))
-    assert np.abs(v - known).max() < 1e-10
+    v = speed_of_sleigh(found)
+    assert np.abs(v - glide(found.times, speed, spin)).max() < 1e-10
     # The skate's force: m times the acceleration across it, v ω + a ω̇.
     omega = found.rates[:, 2]
     force = m * (v * omega - a * (m * a * v * omega) / (inertia + m * a**2))
     assert np.abs(reactions(found)[:, 0] - force).max() < 1e-9
+
+
+def speed_of_sleigh(found: Trajectory) -> Floats:
+    """Of its blade along itself, shape (samples,)."""
+    angle = found.values[:, 2]
+    return np.asarray(np.cos(angle) * found.rates[:, 0] + np.sin(angle) * found.rates[:, 1])
+
+
+def glide(times: Floats, speed: float, spin: float) -> Floats:
+    """The same in closed form, at `times`, shape (samples,)."""
+    m, inertia, a = 2.0, 0.3, 0.4
+    limit = np.sqrt(speed**2 + (inertia + m * a**2) / m * spin**2)
+    return np.asarray(limit * np.tanh(m * a * limit / (inertia + m * a**2) * times + np.arctanh(speed / limit)))
+
+
+@pytest.mark.parametrize("method", [name for name in method_ids() if name != "taylor"])
+def test_every_method_has_its_order_where_rates_are_constrained(method: str) -> None:
+    """Reactions of constraints that have no g belong into the stages: at the ends of steps they are of order 1."""
+    order, errors = get_method(method).order, []
+    for step in (0.02, 0.01):
+        found = simulate(problem_of(sleigh(0.2, 1.5), 2.0, 21), get_method(method), step=step, with_error=False)
+        errors.append(np.abs(speed_of_sleigh(found) - glide(found.times, 0.2, 1.5)).max())
+    assert errors[1] < max(1.5 * errors[0] / 2**order, 1e-12), errors
 
 
 def test_a_moving_pivot_feeds_power_in_through_its_rod() -> None:

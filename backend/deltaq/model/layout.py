@@ -28,3 +28,8 @@ class Layout:
     def degrees(self) -> int:
         """The number of free coordinates n; where there are constraints, fewer of them are independent."""
         return len(self.free)
+
+    @property
+    def is_holonomic(self) -> bool:
+        """Whether all constraints are equations between positions; so it is without any."""
+        return self.holonomic == len(self.multipliers)

@@ -94,18 +94,17 @@ def _partitioned(scheme: Partitioned, arguments: KernelArguments) -> Result:
 
 def is_split(scheme: Partitioned, problem: Problem) -> bool:
     """Whether positions and momenta can be advanced in turn: with constraints in a single drift, if all have a g."""
-    layout = problem.model.layout
     is_single = not problem.is_constrained or sum(drift != 0 for drift in scheme.drifts) == 1
-    is_held = layout.holonomic == len(layout.multipliers)
-    return bool(scheme.kicks) and problem.model.phase.is_separable and is_held and is_single
+    return bool(scheme.kicks) and problem.model.phase.is_separable and problem.model.layout.is_holonomic and is_single
 
 
 def is_kicked(scheme: Scheme, problem: Problem) -> bool:
     """Whether constraints are kept by kicks between the steps, so that a symplectic method stays one.
 
-    That is of order 2, and not worth it where the method's own order is higher.
+    That is of order 2, and not worth it where the method's own order is higher. Constraints of rates leave nothing
+    symplectic to be kept, and their reactions belong into the stages: at the ends of steps alone they are of order 1.
     """
-    if not isinstance(scheme, Partitioned) or not problem.is_constrained:
+    if not isinstance(scheme, Partitioned) or not (problem.is_constrained and problem.model.layout.is_holonomic):
         return False
     return scheme.is_symplectic and (scheme.stages == 1 or bool(scheme.kicks))
 
