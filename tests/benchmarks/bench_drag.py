@@ -84,6 +84,7 @@ def main() -> None:
         page.goto(f"{service.address}scene?scene={asked.scene}&lang=en")
         page.locator(".js-plotly-plot").first.wait_for()
         Lecture(page, service.address).await_last_chapter()
+        page.locator(".drawing").hover()  # what takes bodies in hand is loaded when somebody points at them
         handle = page.locator(".handle").last
         expect(handle).to_be_attached()
         box = handle.bounding_box()
