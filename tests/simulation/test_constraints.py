@@ -328,14 +328,18 @@ AT_A_FORK = ("constraint-not-met", "constraint-rate-not-met", "constraints-locke
         ({"parameters": {"c": 1e-300}}, ("constraint-not-met",)),
         ({"parameters": {"s": 1e-15}}, AT_A_FORK),
         ({"initial": {"phi1": {"value": 1e15}}}, ("constraint-not-met",)),
+        (
+            {"initial": {"phi2": {"value": -167538116.81675162}, "phi3": {"value": -1622727.3279064395}}},
+            ("constraint-not-met",),
+        ),
     ],
-    ids=["no length", "a short one", "an angle of few digits"],
+    ids=["no length", "a short one", "an angle of few digits", "kept in a run, and not at its samples"],
 )
 def test_numbers_with_which_constraints_cannot_be_kept_are_refused_at_one(
     change: dict[str, object], codes: tuple[str, ...]
 ) -> None:
     with pytest.raises(SceneError) as caught:
-        run({"scene": "four-bar", "t_end": 1.0, "samples": 11, **change})
+        run({"scene": "four-bar", "t_end": 1.0, "samples": 11, "tolerance": 1e-12, **change})
     (problem,) = caught.value.problems
     assert problem.code in codes
     assert problem.pointer[:-1] == "/scene/constraints/"

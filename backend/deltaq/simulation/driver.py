@@ -16,6 +16,7 @@ from .attempt import Attempt, Integrator
 from .audit import Audit, GuideJump
 from .conclusion import outcome
 from .consistency import unmet
+from .constraints import Reactions
 from .estimate import Estimate
 from .event import EventOccurrence
 from .integration import Flag
@@ -123,10 +124,9 @@ def _trajectory(
         transitions, *_with_multipliers(found, problem, *_shown(best, _refined(problem)))
     )
     errors, of_multipliers = told[:, 0], told[:, 1:] if told.shape[1] > 1 else None
-    reactions = None
+    stretches, reactions = tuple(Stretch(each.start, each.problem) for each in best.chosen.meshes), None
     if problem.reactions:
-        stretches = () if problem.released else tuple(Stretch(each.start, each.problem) for each in best.chosen.meshes)
-        states, reactions = reactions_along(problem, times, states, stretches)
+        states, reactions = _kept(problem, times, states, () if problem.released else stretches)
         times, errors = times[: len(states)], errors[: len(states)]
         of_multipliers = of_multipliers if of_multipliers is None else of_multipliers[: len(states)]
     return Trajectory(
@@ -145,8 +145,19 @@ def _trajectory(
         best.seen_until,
         reactions,
         transitions,
-        tuple(Stretch(each.start, each.problem) for each in best.chosen.meshes),
+        stretches,
     )
+
+
+def _kept(problem: Problem, times: Floats, states: Floats, stretches: tuple[Stretch, ...]) -> tuple[Floats, Reactions]:
+    """The states as far as they can be kept, and the reactions there. Raises SceneError where the first one cannot.
+
+    `times` has shape (samples,), `states` shape (samples, width).
+    """
+    found = reactions_along(problem, times, states, stretches)
+    if not len(found[0]):
+        raise unmet(problem)
+    return found
 
 
 def _best(problem: Problem, attempts: list[Attempt]) -> Attempt:
