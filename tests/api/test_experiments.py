@@ -323,6 +323,7 @@ def still_compiling(app: FastAPI, *groups: str) -> Iterator[None]:
         app.state.service = before
 
 
+@pytest.mark.always
 @pytest.mark.parametrize(("name", "status"), [("poincare-section", 200), ("bifurcation", 503), ("convergence", 503)])
 async def test_on_a_new_machine_an_experiment_waits_for_its_own_kernels_alone(
     app: FastAPI, client: httpx.AsyncClient, name: str, status: int

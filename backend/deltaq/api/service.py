@@ -99,21 +99,22 @@ class Service:
         key: str,
         job: Job,
         document: Any,
-        on_update: OnUpdate,
+        on_update: OnUpdate | None,
         *,
         anew: bool,
         kernels: tuple[str, ...] | None = None,
     ) -> bytes:
         """The gzipped JSON of an experiment; `on_update` receives what it waits for, and its parts, before.
 
-        `anew` measures what is in the cache already. It waits for the `kernels` that it takes, all if None. Who has
-        been let in waits for minutes, and is not refused for what the experiments have cost that he asked for at the
-        same time.
+        `anew` measures what is in the cache already. It waits for the `kernels` that it takes, all if None: for as long
+        as that takes if somebody hears of it, else until `Kernels` gives up. Who has been let in waits for minutes, and
+        is not refused for what the experiments have cost that he asked for at the same time.
         """
 
         async def compute(publish: OnUpdate) -> bytes:
             if kernels is None or kernels:
-                await self.kernels.wait(*(kernels or ()), tell=lambda here, all_: publish(_preparing(here, all_)))
+                told = None if on_update is None else lambda here, all_: publish(_preparing(here, all_))
+                await self.kernels.wait(*(kernels or ()), tell=told)
             account, has_begun = ACCOUNT.get(), Event()
             account.admit()
 
@@ -130,7 +131,7 @@ class Service:
 
         ask = self.cache.renew if anew else self.cache.get
         async with self.laboratory.asked(key, ACCOUNT.get()):
-            return await _shared(partial(ask, key, compute, on_update))
+            return await _shared(partial(ask, key, compute, on_update or ignore))
 
     async def run(self, job: Job, document: Any, key: str = "") -> bytes:
         """The JSON of a job's answer, at the expense of the client that asks."""

@@ -28,7 +28,7 @@ from ...contract.menu import ExperimentEntry, ExperimentList, options_of
 from ...lab.library import experiment_ids
 from ..body import StrictRoute
 from ..ending import Ending
-from ..flights import OnUpdate, ignore
+from ..flights import OnUpdate
 from ..languages import language_of
 from ..packing import unpack
 from ..problems import report_of
@@ -108,13 +108,13 @@ async def _measured(request: Request, experiment: str, body: ExperimentRequest) 
     job = replace(EXPERIMENT, deadline=service.settings.experiment_deadline, name=experiment)
     key, accepted = service.key(job.target, question | {"lang": ""}), request.headers.get("accept", "")
 
-    async def measured(hear: OnUpdate) -> bytes:
+    async def measured(hear: OnUpdate | None) -> bytes:
         result = await service.measurement(key, job, question, hear, anew=anew, kernels=body.kernels)
         return await _drawn(service, result, question["lang"])
 
     if MEDIA_TYPE in accepted:
         return _streamed(request, measured, service.ending)
-    answer = await measured(ignore)
+    answer = await measured(None)
     wanted = next((kind for kind in FILES if kind in accepted), None)
     if wanted is None:
         return packed(request, hashlib.sha256(answer).hexdigest()[:32], answer)  # measured anew, it is another
