@@ -319,7 +319,7 @@ def test_parts_that_do_not_fit_are_refused_at_their_constraint() -> None:
     ]
 
 
-AT_A_FORK = ("constraint-not-met", "constraint-rate-not-met", "constraints-locked")  # but for rounding: it decides
+AT_A_FORK = ("constraint-not-met", "constraint-rate-not-met")  # a last digit decides between them
 
 
 @pytest.mark.parametrize(
