@@ -24,7 +24,7 @@ from deltaq.model.modes import modes_of
 from deltaq.simulation.constraints import Finish
 from deltaq.simulation.driver import simulate
 from deltaq.simulation.hybrid import in_first_mode, run_on
-from deltaq.simulation.integration import Room, motion_of, watch_of
+from deltaq.simulation.integration import Workspace, motion_of, watch_of
 from deltaq.simulation.library import get_method
 from deltaq.simulation.reference import METHODS, Reference
 from deltaq.simulation.run import Steps
@@ -78,11 +78,11 @@ def test_runs_in_one_room_are_as_in_rooms_of_their_own(name: str) -> None:
     assert modes is not None
     problem = in_first_mode(problem_of(modes.scene, 5.0), modes)
     other = replace(problem, parameters=tuple(1.01 * each for each in problem.parameters))
-    method, flag, steps, room = get_method("dop853"), np.zeros(1, dtype=np.int64), Steps(0.05, 1e-9), Room()
+    method, flag, steps, workspace = get_method("dop853"), np.zeros(1, dtype=np.int64), Steps(0.05, 1e-9), Workspace()
     met = []
     for each, t_end in ((problem, 5.0), (other, 0.01), (other, 5.0), (problem, 0.01)):
         times = np.linspace(0.0, t_end, 51)
-        shared, alone = (run_once(each, method, times, flag, steps, place) for place in (room, None))
+        shared, alone = (run_once(each, method, times, flag, steps, place) for place in (workspace, None))
         np.testing.assert_array_equal(shared.states, alone.states)
         assert (shared.result, shared.conditioning) == (alone.result, alone.conditioning)
         met.append(shared.event is not None)
@@ -96,16 +96,16 @@ def test_what_a_room_hands_out_again_is_as_new(name: str) -> None:
     assert modes is not None
     problem = in_first_mode(problem_of(modes.scene, 5.0), modes)
     scheme, flag, first = get_method("dop853").tableau, np.zeros(1, dtype=np.int64), 2 * problem.degrees + 1
-    room, finish = Room(), Finish.of(get_method("dop853"))
-    watch, motion = room.watch(problem, flag, scheme), room.motion(problem, is_long=False, finish=finish)
+    workspace, finish = Workspace(), Finish.of(get_method("dop853"))
+    watch, motion = workspace.watch(problem, flag, scheme), workspace.motion(problem, is_long=False, finish=finish)
     for array in (*watch[4:5], *watch[6:12], motion.inputs, motion.conditioning):
         array.fill(-1.0)
-    new, again = watch_of(problem, flag, scheme), room.watch(problem, flag, scheme)
+    new, again = watch_of(problem, flag, scheme), workspace.watch(problem, flag, scheme)
     assert again.least is watch.least
     for fresh, used in zip(new[5:12], again[5:12], strict=True):
         np.testing.assert_array_equal(used, fresh)
     np.testing.assert_array_equal(again.inputs[first:], new.inputs[first:])
-    own, motion = motion_of(problem), room.motion(problem, is_long=False, finish=finish)
+    own, motion = motion_of(problem), workspace.motion(problem, is_long=False, finish=finish)
     np.testing.assert_array_equal(motion.inputs[first:], own.inputs[first:])
     assert motion.conditioning == own.conditioning
 

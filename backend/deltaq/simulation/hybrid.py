@@ -15,7 +15,7 @@ import numpy as np
 from ..model.modes import Modes
 from .constraints import Reactions
 from .event import Event
-from .integration import Flag, Room
+from .integration import Flag, Workspace
 from .kernels.loop import Result
 from .kernels.motion import FINE, MANY_EVENTS, NOT_FINITE, STEP_LIMIT, UNSETTLED
 from .method import Method
@@ -110,7 +110,7 @@ def run_on(
     most_switches = _most_switches(steps, float(times[-1]))
     record = _Record(np.zeros((times.size, width)), np.zeros((times.size, count)), most_switches)
     record.out[0, : 2 * problem.degrees] = problem.state[: 2 * problem.degrees]
-    go = partial(run, room=Room()) if watch is None else watch.first_part
+    go = partial(run, workspace=Workspace()) if watch is None else watch.first_part
     while True:
         stretch, ahead = _problem(current, record.steps), _ahead(times, current.time)
         found = go(stretch, method, ahead, cancelled, _after(steps, current.time))

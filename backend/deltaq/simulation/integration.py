@@ -203,7 +203,7 @@ def motion_of(problem: Problem, *, is_long: bool = True, finish: Finish = Finish
     )
 
 
-class Room:
+class Workspace:
     """What runs of one model by one method read and write that follow one another: made by the first, used by all.
 
     Each has other parameters, being in another mode. Those with constraints or switching functions get their own.

@@ -10,7 +10,7 @@ import numpy as np
 from .constraints import Finish, Reactions, is_locked, pivot_of, seems_turned
 from .event import Approach, Event, approaches, first_event, quick_event
 from .forks import fork_crossed, fork_passed, is_at_fork
-from .integration import Flag, KernelArguments, Room, run_kernel
+from .integration import Flag, KernelArguments, Workspace, run_kernel
 from .kernels.loop import Result
 from .kernels.motion import (
     EVENT,
@@ -147,7 +147,7 @@ class Steps:
 
 
 def run(
-    problem: Problem, method: Method, times: Floats, cancelled: Flag, steps: Steps, room: Room | None = None
+    problem: Problem, method: Method, times: Floats, cancelled: Flag, steps: Steps, workspace: Workspace | None = None
 ) -> Run:
     """Integrates a problem once, with samples at `times`, shape (samples,), in seconds; `cancelled` has shape (1,).
 
@@ -155,9 +155,9 @@ def run(
     long begins again in code that runs faster, whose compilation takes as long as what was lost; so do runs of a model
     that has run for as long already.
     One that has taken a part of the steps that are allowed is given up where the rest of them would bring it nowhere.
-    Runs that follow one another may share a `room`.
+    Runs that follow one another may share a `workspace`.
     """
-    task = _Task(problem, method, times, cancelled, steps, room or Room())
+    task = _Task(problem, method, times, cancelled, steps, workspace or Workspace())
     model, stages, limit = problem.model, method.tableau.stages, problem.step_limit
     shortest = limit * stages <= SHORT
     known = float(times[-1]) / steps.size * steps.ratio * stages if steps.tolerance == 0.0 else 0.0
@@ -182,7 +182,7 @@ class _Task:
     times: Floats
     cancelled: Flag
     steps: Steps
-    room: Room
+    workspace: Workspace
 
     def limited(self) -> Run:
         """A run of a part of the steps; OUT_OF_REACH if all that are allowed would bring it nowhere (`reach`)."""
@@ -199,16 +199,16 @@ class _Task:
 
     def run(self, limit: int, *, is_long: bool) -> Run:
         """A run of so many steps at most."""
-        problem, method, times, steps, room = self.problem, self.method, self.times, self.steps, self.room
+        problem, method, times, steps, workspace = self.problem, self.method, self.times, self.steps, self.workspace
         plan = steps.plan(float(times[0]), float(times[-1]), problem.degrees, method)
         is_series = isinstance(method.tableau, Series)
         if is_series:
             jet_of_model(problem.model, is_long=is_long)  # compiled before the time is taken
         arguments = KernelArguments(
             problem,
-            room.motion(problem, is_long=is_long and not is_series, finish=Finish.of(method)),
+            workspace.motion(problem, is_long=is_long and not is_series, finish=Finish.of(method)),
             _control(limit, method, steps, plan),
-            room.watch(problem, self.cancelled, method.tableau),
+            workspace.watch(problem, self.cancelled, method.tableau),
             np.ascontiguousarray(times),  # a kernel is compiled anew for an array with strides
             np.zeros((times.size, problem.width)),
             is_long,
