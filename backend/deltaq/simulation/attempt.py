@@ -14,9 +14,9 @@ from .estimate import Estimate, estimate, larger, rounding_matters, says_more, w
 from .event import EventOccurrence
 from .hybrid import run_on
 from .integration import Flag
-from .kernels.motion import CANCELLED, LOCKED, NEWTON_FAILED, SINGULAR, STEP_LIMIT, STIFF
+from .kernels.motion import CANCELLED, LOCKED, MANY_EVENTS, NEWTON_FAILED, SINGULAR, STEP_LIMIT, STIFF, UNSETTLED
 from .method import Method
-from .outcome import OUT_OF_REACH
+from .outcome import CHATTERS, NO_DIRECTION, OUT_OF_REACH, SLIDES
 from .pieces import Pieces, Stretch
 from .problem import Floats, Problem
 from .refinement import FINER, LAST, Refinement
@@ -28,6 +28,9 @@ TRIES = 6
 ROUNDS = 4  # of shorter steps where a run was blind
 BY_EVENTS = 0.5  # of the difference, where a motion goes on behind events
 BY_IMPACTS = 1.0  # times the differences of runs that are shaken otherwise
+UNSOLVED = (NEWTON_FAILED, LOCKED, SINGULAR)
+UNCLEAR = (UNSETTLED, NO_DIRECTION, SLIDES, CHATTERS, MANY_EVENTS)  # how the motion goes on behind an event
+SAME_EVENT = 1e-4  # of the time: of events that pile up not all runs follow as many
 SAME_PLACE = 1e-6  # of the time: runs that end so close to each other end at the same place
 ORDERS = 4  # more for each finer run with steps that are given
 BRIEF = 5_000  # right-hand sides; fewer take less time than a second thread needs to begin
@@ -280,9 +283,9 @@ class Integrator:
     @property
     def _disturbed(self) -> Integrator:
         """The same with a disturbed model."""
-        if self.modes is not None:
-            return replace(self, modes=replace(self.modes, model=self.modes.model.disturbed))
-        return replace(self, problem=replace(self.problem, model=self.problem.model.disturbed))
+        model = self.problem.model.disturbed
+        modes = self.modes and replace(self.modes, model=model)
+        return replace(self, problem=replace(self.problem, model=model), modes=modes)
 
     def is_affordable(self, blind: tuple[Stretch, ...]) -> bool:
         """Whether steps short enough for the blind stretches stay within the step limit."""
@@ -346,12 +349,14 @@ def _can_improve(attempt: Attempt, tolerance: float, problem: Problem) -> bool:
     is_reached = attempt.estimate is not None and attempt.estimate.worst <= tolerance
     is_cut_short = any(run.result.outcome in (STEP_LIMIT, OUT_OF_REACH, CANCELLED, STIFF) for run in attempt.runs)
     steps = max(run.result.steps + run.result.rejected for run in attempt.runs)
-    is_over = is_cut_short or _is_stuck(attempt)
+    # Finer runs would end there as well, where equations cannot be solved or nothing says what comes behind an event.
+    is_stuck = _all_end(attempt, UNSOLVED, SAME_PLACE) or (is_reached and _all_end(attempt, UNCLEAR, SAME_EVENT))
+    is_over = is_cut_short or is_stuck
     return not (is_reached and attempt.is_complete) and not is_over and 2 * steps < problem.step_limit
 
 
-def _is_stuck(attempt: Attempt) -> bool:
-    """Whether all runs end at one place where the equations cannot be solved: finer ones would end there as well."""
+def _all_end(attempt: Attempt, outcomes: tuple[int, ...], apart: float) -> bool:
+    """Whether all runs end in one of these ways, no further apart than that part of the time."""
     ends = [run.result.reached for run in attempt.runs]
-    is_unsolved = all(run.result.outcome in (NEWTON_FAILED, LOCKED, SINGULAR) for run in attempt.runs)
-    return is_unsolved and max(ends) - min(ends) <= SAME_PLACE * min(ends)
+    is_one = max(ends) - min(ends) <= apart * min(ends)
+    return is_one and all(run.result.outcome in outcomes for run in attempt.runs)

@@ -122,16 +122,17 @@ def larger(one: Estimate, other: Estimate) -> Estimate:
 def rounding_matters(problem: Problem, fine: Run, found: Estimate) -> bool:
     """Whether ε · (condition of M) · (radians of the motion) · |q| is comparable to the estimate.
 
-    Rounded entries of M and f change q̈ by up to ε times the condition; the motion adds this up over its radians.
+    Rounded entries of M and f change q̈ by up to ε times the condition; the motion adds this up over its radians, and
+    what impacts do to its rates over their number.
     """
     times, states = fine.times, fine.states.T
     if len(times) < 2 or not fine.conditioning > 0.0:
         return False
     scales = _time_scales(problem, times, states)
-    radians = max((1.0, *(problem.t_end / scales[scales > 0.0])))
+    times_added = max((1.0, float(len(fine.transitions)), *(problem.t_end / scales[scales > 0.0])))
     sizes = np.abs(states[: problem.degrees])
     share = np.max(sizes / np.maximum(1.0, sizes))
-    return bool(EPSILON / fine.conditioning * radians * share > MATTERS * found.worst)
+    return bool(EPSILON / fine.conditioning * times_added * share > MATTERS * found.worst)
 
 
 def with_rounding(problem: Problem, found: Estimate, fine: Run, other: Run) -> Estimate:

@@ -55,7 +55,8 @@ class Facts(NamedTuple):
 class ModeState:
     """A state (q, q̇) at a time, in a mode, of a problem in modes; `q` and `v` have shape (n,).
 
-    What is small is so beside the largest place or rate, which count as `least` at least.
+    What is small is so beside the largest place or rate, which count as `least` at least. Gaps of `closed` times the
+    largest place are closed.
     """
 
     problem: Problem
@@ -65,6 +66,7 @@ class ModeState:
     v: Floats
     mode: Mode
     least: tuple[float, float] = (1.0, 1.0)
+    closed: float = TOUCHING
 
     @cached_property
     def row(self) -> Floats:
@@ -133,7 +135,7 @@ class ModeState:
     @property
     def touching(self) -> list[int]:
         """The contacts that are closed, but for rounding."""
-        size = TOUCHING * self.size_of_places
+        size = self.closed * self.size_of_places
         return [j for j, gap in enumerate(self.facts.gaps) if gap <= self.scale(j) * size]
 
     @cached_property
@@ -164,11 +166,11 @@ class ModeState:
 
     def at(self, time: float, q: Floats, v: Floats) -> ModeState:
         """Another state in the same mode; `q` and `v` have shape (n,)."""
-        return ModeState(self.problem, self.modes, time, q, v, self.mode, self.least)
+        return ModeState(self.problem, self.modes, time, q, v, self.mode, self.least, self.closed)
 
     def within(self, mode: Mode) -> ModeState:
         """The same state in another mode."""
-        return ModeState(self.problem, self.modes, self.time, self.q, self.v, mode, self.least)
+        return ModeState(self.problem, self.modes, self.time, self.q, self.v, mode, self.least, self.closed)
 
     def with_flags(self, flags: tuple[float, ...]) -> ModeState:
         """The same state with other rows held."""

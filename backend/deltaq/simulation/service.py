@@ -182,7 +182,7 @@ def problem_of(scene: Scene, t_end: float, samples: int = 501) -> Problem:
         tuple(parameter.value for parameter in scene.parameters),
         tuple(coordinate.value for coordinate in scene.free),
         tuple(coordinate.rate for coordinate in scene.free),
-        t_end,
+        float(t_end),
         samples,
         tuple(coordinate.unit in ANGLES for coordinate in scene.free),
     )

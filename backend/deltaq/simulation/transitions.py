@@ -81,19 +81,19 @@ def _empty(modes: Modes) -> Mode:
     return Mode((1.0,) * len(modes.kinks), (1.0,) * modes.bounded, (0.0,) * modes.rows, (0.0,) * modes.watched)
 
 
-def begun(problem: Problem, modes: Modes) -> ModeState:
-    """The initial state in its mode, without offsets.
+def begun(problem: Problem, modes: Modes, closed: float = TOUCHING) -> ModeState:
+    """The initial state in its mode, without offsets, of a motion for which gaps as small as `closed` are closed.
 
     Raises UnsettledError, NoDirectionError or SlidingError where it has none.
     """
     n, state, empty = problem.degrees, problem.state, _empty(modes)
     own = with_signs(problem, modes)
-    current = ModeState(own, modes, 0.0, state[:n].copy(), state[n : 2 * n].copy(), empty)
+    current = ModeState(own, modes, 0.0, state[:n].copy(), state[n : 2 * n].copy(), empty, closed=closed)
     current = replace(current, least=_least_sizes(current))
     kinks, pins = (tuple(-1.0 if s < 0.0 else 1.0 for s in each) for each in (current.facts.kinks, current.facts.pins))
     current = current.within(empty._replace(kinks=kinks, slips=(*empty.slips[: modes.first_pin], *pins)))
-    closed = current.touching
-    return _resolved(_after_impacts(current, closed[0]) if closed else current, frozenset(closed), None)
+    touching = current.touching
+    return _resolved(_after_impacts(current, touching[0]) if touching else current, frozenset(touching), None)
 
 
 def _least_sizes(current: ModeState) -> tuple[float, float]:
