@@ -195,6 +195,21 @@ def test_a_level_line_is_a_family_of_equilibria() -> None:
     assert (each.stability, each.verdict.kind) == ("stable", "family")
 
 
+@pytest.mark.parametrize("lengths", [(1.0, 1.0, 1.0, 1.0), (0.5, 0.9, 0.5, 0.9), (0.3, 0.9, 0.6, 1.0)])
+def test_bars_without_weight_rest_anywhere(lengths: tuple[float, ...]) -> None:
+    """Where a parallelogram is flat its branches cross: that is one of its positions, no isolated one."""
+    document: dict[str, Any] = write_scene(load_scene("four-bar"))
+    values = dict(zip("abcs", lengths, strict=True))
+    wide = [{**p, "min": 0.01, "max": 5.0, "value": values.get(p["name"], 1.0)} for p in document["parameters"]]
+    labels = {name: label for name, label in document["labels"].items() if name != "weight"}
+    starts = [{**c, "min": -4.0, "max": 4.0, "value": 0.7} for c in document["coordinates"]]
+    bars = read_scene({**document, "coordinates": starts, "parameters": wide, "loads": [], "labels": labels})
+    rests = linearizations(System(bars))
+    assert [(each.stability, each.verdict.kind, len(each.equilibrium.free)) for each in rests] == [
+        ("stable", "family", 1)
+    ]
+
+
 def test_a_slope_has_no_rest() -> None:
     line = {"kind": "equation", "name": "line", "equation": "y = x"}
     steps = model_steps(particle([line]))

@@ -88,6 +88,32 @@ def test_a_family_is_told_once_with_its_free_unknowns(equations: list[sp.Expr], 
     assert sum(1 for each in found.found if each.free) == 1
 
 
+CROSSING = {
+    "two lines": ([X * Y], [X, Y]),
+    "a rhombus of four bars": ([sp.cos(X) + sp.cos(Y) - sp.cos(Z) - 1, sp.sin(X) + sp.sin(Y) - sp.sin(Z)], [X, Y, Z]),
+    "a figure of eight": ([(X**2 + Y**2) ** 2 - X**2 + Y**2], [X, Y]),
+    "a cubic with a double point": ([Y**2 - X**2 * (X + 1)], [X, Y]),
+}
+
+
+@pytest.mark.parametrize("start", ["0", "1/3", "0.7"])
+@pytest.mark.parametrize("named", CROSSING)
+def test_where_branches_of_a_family_cross_is_not_all_of_it(named: str, start: str) -> None:
+    """Nothing may be chosen there; a root that stands for the family is elsewhere."""
+    equations, unknowns = CROSSING[named]
+    angles = frozenset(unknowns if "bars" in named else ())
+    domain = Domain(dict.fromkeys(unknowns, (-10.0, 10.0)), angles, dict.fromkeys(unknowns, sp.Rational(start)))
+    found = Solver(domain, lambda e: sp.simplify(e) == 0, Budget(600_000)).solve(equations, unknowns)
+    assert any(each.free for each in found.found)
+
+
+def test_a_point_that_fewer_equations_have_is_not_told_as_all() -> None:
+    """x² + y² = 0 has one: whether a family is elsewhere is not known."""
+    found = solved([X**2 + Y**2 + X**4], [X, Y])
+    assert not found.complete
+    assert [each.free for each in found.found] == [()]
+
+
 def test_the_middle_of_a_sphere_is_no_part_of_it() -> None:
     found = solved([(X**2 + Y**2 - 4) * q for q in (X, Y)], [X, Y])
     assert sorted(len(each.free) for each in found.found) == [0, 1]

@@ -12,6 +12,7 @@ import math
 import random
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from itertools import islice
 
 import sympy as sp
 from flint import arb
@@ -29,6 +30,7 @@ LONGEST = 120  # operations in an equation that is worth a factorization
 BRANCHES = 24  # of one system: more factors than that are not followed
 MOST_UNKNOWNS = 6  # of a search by subdivision
 MOST_STARTS = 24
+MOST_CROSSINGS = 8  # of branches of a family that are looked at before a root that stands for it is given up
 SMALL = 1e-8  # of the size of its terms: what is below it solves an equation
 SHIFT = 0.0173  # a turn is searched from −π − SHIFT on, so that π is not at its end
 DEGENERATE = 1e-7  # pivots, relative to the largest
@@ -244,13 +246,20 @@ class Solver:
         return {q: float(x) for q, x in guess.items()} if left == () else None
 
     def _family(self, equations: tuple[sp.Expr, ...], unknowns: tuple[sp.Symbol, ...]) -> Solutions:
-        """One solution that stands for all of fewer equations than unknowns."""
+        """One solution that stands for all of fewer equations than unknowns.
+
+        Where J loses its rank, branches of the family cross, and no unknown may be chosen: such a root stands for none
+        but itself.
+        """
         newton = Newton(equations, unknowns, self.domain)
-        roots = (newton.root(start) for start in newton.starts())
-        there = next((each for each in roots if each is not None), None)
-        if there is None:
-            return Solutions(complete=False)
-        return Solutions((Solution(there, newton.free(there), equations),))
+        roots = (each for each in map(newton.root, newton.starts()) if each is not None)
+        crossings: list[Solution] = []
+        for there in islice(roots, MOST_CROSSINGS):
+            found = Solution(there, newton.free(there), equations)
+            if len(found.free) >= len(unknowns) - len(equations):
+                return Solutions((found,))
+            crossings.append(found)
+        return Solutions(tuple(crossings[:1]), complete=False)
 
 
 class Newton:
