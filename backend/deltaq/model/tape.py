@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from types import MappingProxyType
 
 import numpy as np
@@ -73,8 +74,13 @@ class Tape:
 
     def uses(self, number: int) -> bool:
         """Whether any value is made of the input of this number, which must not be 0, as unused operands are."""
-        made = ~np.isin(self.codes, (INPUT, CONSTANT))  # inputs come first, each at the place of its number
-        return any(bool((each == number).any()) for each in (self.a[made], self.b[made], self.c[made], self.outputs))
+        return number in self._used
+
+    @cached_property
+    def _used(self) -> frozenset[int]:
+        """The places of operands and outputs: inputs come first, each at the place of its number."""
+        made = ~np.isin(self.codes, (INPUT, CONSTANT))
+        return frozenset(np.concatenate([self.a[made], self.b[made], self.c[made], self.outputs]).tolist())
 
 
 def tape_of(inputs: Sequence[Expr], outputs: Sequence[Expr]) -> Tape:

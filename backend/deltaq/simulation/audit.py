@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cache, cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -121,15 +121,14 @@ class Audit:
         meshes = [mesh for mesh in meshes if len(mesh.mesh_times) > 1]
         if not meshes:
             return ()
-        rows = [each.problem.inputs(each.mesh_times[:-1:GROUP], each.mesh_states[:-1:GROUP]) for each in meshes]
+        joined = _Joined.of(meshes)
         threshold, ranges, width = self.threshold(tolerance), self._ranges_of(), 2 * self.problem.degrees + 1
-        values = np.vstack([self._nearest(mesh) for mesh in meshes])
-        all_seeds = self.seeds(np.vstack(rows), threshold, values)
-        seeds = np.split(all_seeds, np.cumsum([len(each) for each in rows])[:-1])
+        all_seeds = self.seeds(joined.rows(joined.groups), threshold, self._nearest(joined))
+        seeds = np.split(all_seeds, np.searchsorted(joined.groups, joined.firsts[1:]))
         workspace, blind, spare = _make_workspace(self.tape_arrays.codes.size), _make_blind(), np.zeros((2, width))
         found: list[Stretch] = []
-        for mesh, path, own, row in zip(meshes, _paths(meshes), seeds, rows, strict=True):
-            ranges.inputs_low[width:] = ranges.inputs_high[width:] = row[0, width:]
+        for mesh, path, own, parameters in zip(meshes, _paths(joined), seeds, joined.parameters, strict=True):
+            ranges.inputs_low[width:] = ranges.inputs_high[width:] = parameters
             workspace.looked[0] = blind.found[0] = 0
             rules = Rules(self.limit, threshold, float(mesh.stride))
             inspect(self.tape_arrays, ranges, path, own, rules, workspace, spare, blind)
@@ -175,14 +174,14 @@ class Audit:
     def _tape(self) -> Tape:
         return self.problem.model.audited
 
-    def _nearest(self, mesh: Mesh) -> Floats:
-        """The least value of each event in each GROUP of steps of a mesh: shape (groups, events)."""
-        starts = np.arange(0, len(mesh.mesh_times) - 1, GROUP)
-        events = list(self.problem.model.seen_events)
-        if not events:
-            return np.ones((len(starts), 0))
-        values = event_values(mesh.problem, mesh.mesh_times, mesh.mesh_states)[:-1, events]
-        return np.asarray(np.minimum.reduceat(np.where(values > 0.0, values, np.inf), starts, axis=0))
+    def _nearest(self, joined: _Joined) -> Floats:
+        """The least value of each event in each GROUP of steps of meshes: shape (groups, events)."""
+        function, events = self.problem.model.events, list(self.problem.model.seen_events)
+        if function is None or not events:
+            return np.ones((len(joined.groups), 0))
+        values = function.table(joined.rows(slice(None)))[:, events]
+        values[~(values > 0.0)] = values[joined.lasts] = np.inf
+        return np.asarray(np.minimum.reduceat(values, joined.groups, axis=0))
 
     @property
     def tape_has_choices(self) -> bool:
@@ -312,25 +311,62 @@ def _make_workspace(operations: int) -> AuditWorkspace:
     return AuditWorkspace(*_columns(DEEPEST), looked, flips, np.zeros(operations))
 
 
-def _paths(meshes: Sequence[Mesh]) -> list[Path]:
-    """Meshes of two ends of steps and more as paths; q̈ of their cubics jumps at the ends of steps.
+@dataclass(frozen=True)
+class _Joined:
+    """Meshes of two ends of steps and more, one behind the other: a motion with many events has many.
+
+    `times` have shape (states,), `states` shape (states, 2n); `firsts` and `lasts`, shape (meshes,), are the rows with
+    which each begins and ends, `groups`, shape (groups,), those with which each GROUP of steps does. `parameters`, of
+    each mesh, have shape (meshes, parameters).
+    """
+
+    meshes: Sequence[Mesh]
+    times: Floats
+    states: Floats
+    parameters: Floats
+    firsts: NDArray[np.int64]
+    lasts: NDArray[np.int64]
+    groups: NDArray[np.int64]
+
+    @classmethod
+    def of(cls, meshes: Sequence[Mesh]) -> _Joined:
+        """Some meshes."""
+        counts = np.array([len(each.mesh_times) for each in meshes])
+        behind = np.cumsum(counts)
+        firsts, lasts = behind - counts, behind - 1
+        return cls(
+            meshes,
+            np.concatenate([each.mesh_times for each in meshes]),
+            np.concatenate([each.mesh_states for each in meshes]),
+            np.array([each.problem.parameters for each in meshes], dtype=np.float64),
+            firsts,
+            lasts,
+            np.concatenate([np.arange(i, j, GROUP) for i, j in zip(firsts.tolist(), lasts.tolist(), strict=True)]),
+        )
+
+    def rows(self, places: NDArray[np.int64] | slice) -> Floats:
+        """What the model's functions read in some rows, (q, q̇, t, parameters): shape (rows, inputs)."""
+        parameters = np.repeat(self.parameters, self.lasts - self.firsts + 1, axis=0)
+        return np.hstack([self.states[places], self.times[places, None], parameters[places]])
+
+
+def _paths(joined: _Joined) -> list[Path]:
+    """Meshes as paths; q̈ of their cubics jumps at the ends of steps.
 
     At the outer ones it is taken for as large as next to them; a single step has no neighbour, and is held against the
-    motion's own q̈. A motion with many events has many meshes, which are computed together.
+    motion's own q̈.
     """
-    n, counts = meshes[0].problem.degrees, [len(each.mesh_times) for each in meshes]
-    times = np.concatenate([each.mesh_times for each in meshes])
-    states = np.concatenate([each.mesh_states for each in meshes])
+    meshes, times, states, firsts, lasts = joined.meshes, joined.times, joined.states, joined.firsts, joined.lasts
+    n = meshes[0].problem.degrees
     q, v = np.ascontiguousarray(states[:, :n]), np.ascontiguousarray(states[:, n : 2 * n])
-    behind = np.cumsum(counts)
-    firsts, lasts = behind - counts, behind - 1
     jumps = _jumps(times, q, v, 1e-13 * meshes[0].problem.t_end)
     jumps[firsts] = jumps[lasts] = 0.0
     jumps[firsts], jumps[lasts] = jumps[firsts + 1], jumps[lasts - 1]
-    for mesh, first, last in zip(meshes, firsts.tolist(), lasts.tolist(), strict=True):
+    ends = list(zip(firsts.tolist(), lasts.tolist(), strict=True))
+    for mesh, (first, last) in zip(meshes, ends, strict=True):
         if last == first + 1:
             jumps[first] = jumps[last] = _off_by(mesh)
-    return [Path(times[i:j], q[i:j], v[i:j], jumps[i:j]) for i, j in zip(firsts.tolist(), behind.tolist(), strict=True)]
+    return [Path(times[i : j + 1], q[i : j + 1], v[i : j + 1], jumps[i : j + 1]) for i, j in ends]
 
 
 def _off_by(mesh: Mesh) -> Floats:
@@ -363,12 +399,14 @@ def _jumps(times: Floats, q: Floats, v: Floats, shortest: float) -> Floats:
     return found
 
 
+@cache
 def largest_gap_of_watch(method: Method) -> float:
     """The largest distance, in steps, between neighbouring places in which a step is looked at for events."""
     count = NODES_OF_SERIES if isinstance(method.tableau, Series) else NODES
     return float(np.diff(places_of_watch(count)).max())
 
 
+@cache
 def largest_gap(method: Method) -> float:
     """The largest distance, in steps, between neighbouring times at which a method evaluates the right-hand side."""
     places = sorted(

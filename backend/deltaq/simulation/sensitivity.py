@@ -6,6 +6,8 @@ d(q̈, λ) = K⁻¹ (d(f, γ) − dK (q̈, λ)) in the same way.
 
 from __future__ import annotations
 
+from contextlib import suppress
+
 import numpy as np
 
 from ..model.layout import Layout
@@ -48,6 +50,9 @@ def _inverse_of_independent(matrix: Floats) -> Floats:
 
 def _inverse(matrix: Floats) -> Floats:
     """The absolute values of K⁻¹, infinite where K has none."""
+    if np.isfinite(matrix).all():
+        with suppress(np.linalg.LinAlgError):  # where all have one, as nearly always
+            return np.asarray(np.abs(np.linalg.inv(matrix)))
     inverse = np.full(matrix.shape, np.inf)
     regular = np.isfinite(matrix).all(axis=(1, 2)) & (np.linalg.det(np.nan_to_num(matrix)) != 0.0)
     inverse[regular] = np.abs(np.linalg.inv(matrix[regular]))
