@@ -14,7 +14,7 @@ from time import perf_counter
 
 import numpy as np
 
-from ..model.modes import Modes, modes_of
+from ..model.modes import Modes, modes_of_model
 from ..simulation.hybrid import run_on
 from ..simulation.integration import Flag
 from ..simulation.kernels.motion import FINE
@@ -96,7 +96,7 @@ class Runs:
     @classmethod
     def of(cls, problem: Problem) -> Runs:
         """The runs of a problem, as a simulation has them."""
-        modes = modes_of(problem.model.scene)
+        modes = modes_of_model(problem.model)
         own = problem if modes is None else replace(problem, model=modes.model)
         return cls(own, modes, np.zeros(1, dtype=np.int64))
 

@@ -126,6 +126,11 @@ def modes_of(scene: Scene) -> Modes | None:
     return _made_once(Mechanics.of(scene))
 
 
+def modes_of_model(model: Model) -> Modes | None:
+    """The same of a model's scene, without a look at the scene."""
+    return model.kept("modes", lambda: modes_of(model.scene))
+
+
 @lru_cache(maxsize=64)
 def _made_once(mechanics: Mechanics) -> Modes | None:
     scene = mechanics.scene

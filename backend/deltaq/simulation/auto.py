@@ -11,7 +11,7 @@ from ..language.functions import KINKED
 from ..language.tree import Call, Node, walk
 from ..mechanics.contributions import Contribution
 from ..mechanics.scene import Scene
-from ..model.modes import modes_of
+from ..model.modes import modes_of_model
 from ..vocabulary import AUTO
 from .choice import Choice
 from .hybrid import in_first_mode
@@ -93,7 +93,7 @@ def choose(wanted: str, scene: Scene, problem: Problem, step: float | None, tole
         return Choice(get_method(wanted))
     if step is not None:
         return Choice(get_method("rk4"), "auto_fixed_step")
-    modes = modes_of(scene)
+    modes = modes_of_model(problem.model)
     size, lasting = _speeds(problem if modes is None else in_first_mode(problem, modes))
 
     def effort(candidate: Candidate | SeriesCandidate) -> float:

@@ -19,7 +19,7 @@ from ..mechanics.library import load_scene
 from ..mechanics.requests import inside
 from ..mechanics.scene import Scene
 from ..model.model import Observation, compile_model
-from ..model.modes import modes_of
+from ..model.modes import modes_of_model
 from ..model.reactions import reactions
 from . import ensemble
 from .answer import Document, answer
@@ -106,7 +106,7 @@ def _simulated(request: Request, choice: Choice, problem: Problem, compile_time:
             with_error="error" in request.include,
         )
     states = np.hstack([trajectory.values, trajectory.rates])
-    modes = modes_of(request.scene)
+    modes = modes_of_model(problem.model)
     with inside("/scene"):  # where something that is drawn has no value at all
         seen = observed(problem, modes, trajectory.times, states, trajectory.stretches)
     watts = power(problem, trajectory.times, states, trajectory.stretches)
@@ -151,7 +151,7 @@ def _touching(problem: Problem, index: int) -> float:
 
 def _require_beginning(scene: Scene, problem: Problem) -> None:
     """Raises SceneError where contacts that touch at the start do not say how the motion begins."""
-    modes = modes_of(scene)
+    modes = modes_of_model(problem.model)
     if modes is None or not modes.contacts:
         return
     try:
