@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from functools import lru_cache
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,8 +12,7 @@ from .compiled import Floats
 from .layout import Layout
 
 
-@dataclass(frozen=True)
-class LinearSystem:
+class LinearSystem(NamedTuple):
     """M q̈ = f + Aᵀλ, A q̈ = γ at each of some states, for n coordinates and m constraints.
 
     `mass` (M) has shape (states, n, n), `forces` (f) shape (states, n), `rows` (A) shape (states, m, n) and `bends` (γ)
@@ -32,7 +31,7 @@ def linear_system(layout: Layout, table: Floats) -> LinearSystem:
     first = size + n + (n + 1 if layout.is_powered else 0)
     rows = table[..., first : first + m * n].reshape(*table.shape[:-1], m, n)
     bends = table[..., first + m * n : first + m * n + m]
-    return LinearSystem(table[..., _places(n)], table[..., size : size + n], rows, bends)
+    return LinearSystem(table.take(_places(n), axis=-1), table[..., size : size + n], rows, bends)
 
 
 @lru_cache(maxsize=64)

@@ -204,7 +204,7 @@ def _end_of_part(current: ModeState, found: Run, times: Floats) -> ModeState | N
 
 def _ahead(times: Floats, start: float) -> Floats:
     """The samples of a stretch: its beginning and those behind it."""
-    return np.concatenate([[start], times[np.searchsorted(times, start, side="right") :]])
+    return np.concatenate([[start], times[times.searchsorted(start, side="right") :]])
 
 
 def _after(steps: Steps, start: float) -> Steps:
@@ -266,7 +266,7 @@ def _shaken(current: ModeState, number: int, pattern: int) -> ModeState:
     size = np.abs(current.v) + current.time * np.abs(current.accelerations)
     change = SHAKE * size * np.cos(2.0 * np.arange(len(size)) + pattern * (number + 2.0))
     kept = current.moved_by(current.mass @ change) if len(current.kept[0]) else change
-    return current.at(current.time, current.q, current.v + kept)
+    return current.with_rates(current.v + kept)
 
 
 def _falling(current: ModeState, event: Event) -> Event:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from functools import cached_property
 from typing import NamedTuple
 
 import numpy as np
@@ -12,6 +11,7 @@ import numpy as np
 from ..model.linear_system import LinearSystem
 from ..model.modes import Modes
 from .kernels.motion import SMALLEST_SHARE
+from .once import once
 from .problem import Floats, Problem
 
 TOUCHING = 1e-11  # a gap, relative to the coordinates
@@ -68,18 +68,19 @@ class ModeState:
     least: tuple[float, float] = (1.0, 1.0)
     closed: float = TOUCHING
 
-    @cached_property
+    @once
     def row(self) -> Floats:
         """Inputs of the model's functions: shape (inputs,)."""
-        own = self.problem.parameters[: len(self.problem.parameters) - len(self.mode.parameters)]
-        return np.array([*self.q.tolist(), *self.v.tolist(), self.time, *own, *self.mode.parameters])
+        of_mode = self.mode.parameters
+        own = self.problem.parameters[: -len(of_mode)]
+        return np.array([*self.q.tolist(), *self.v.tolist(), self.time, *own, *of_mode])
 
     @property
     def is_finite(self) -> bool:
         """Whether places, rates, time and kinetic energy are numbers."""
         return all(map(math.isfinite, (*self.q.tolist(), *self.v.tolist(), self.time, self.kinetic)))
 
-    @cached_property
+    @once
     def facts(self) -> Facts:
         """The rows with the flags of the mode."""
         n, modes, found = len(self.q), self.modes, self.modes.facts.at(self.row)
@@ -96,12 +97,12 @@ class ModeState:
             numbers[kinks:pins], numbers[pins:reactions], numbers[reactions : reactions + rows],
         )  # fmt: skip
 
-    @cached_property
+    @once
     def _system(self) -> LinearSystem:
         """What the model says of the motion, of this state alone."""
         return self.problem.model.system_at(self.row)
 
-    @property
+    @once
     def mass(self) -> Floats:
         """M, shape (n, n)."""
         return self._system.mass
@@ -127,7 +128,7 @@ class ModeState:
         nothing = None if self.problem.rank == count else SMALLEST_SHARE
         return np.asarray(np.linalg.lstsq(matrix, right, rcond=nothing)[0][: len(self.q)])
 
-    @cached_property
+    @once
     def accelerations(self) -> Floats:
         """q̈ in this mode, shape (n,)."""
         return self.moved_by(self._system.forces, self._system.bends)
@@ -138,12 +139,12 @@ class ModeState:
         size = self.closed * self.size_of_places
         return [j for j, gap in enumerate(self.facts.gaps) if gap <= self.scale(j) * size]
 
-    @cached_property
+    @once
     def size_of_places(self) -> float:
         """The largest |q|."""
         return size_of(self.q, self.least[0])
 
-    @cached_property
+    @once
     def size_of_rates(self) -> float:
         """The largest |q̇|."""
         return size_of(self.v, self.least[1])
@@ -152,12 +153,12 @@ class ModeState:
         """How far a gap changes with the coordinates, at most; 1 where it does not."""
         return max(map(abs, self.facts.a[self.modes.bounded + contact].tolist())) or 1.0
 
-    @cached_property
+    @once
     def watched(self) -> Floats:
         """The values that are positive as long as the mode lasts, with its offsets: shape (watched,)."""
         return self.problem.model.events.at(self.row)  # type: ignore[union-attr]
 
-    @cached_property
+    @once
     def kinetic(self) -> float:
         """½ q̇ᵀ M q̇, up to what does not change at an impact."""
         rates, rows = self.v.tolist(), self.mass.tolist()  # numbers of Python, which overflow without a warning
@@ -168,9 +169,20 @@ class ModeState:
         """Another state in the same mode; `q` and `v` have shape (n,)."""
         return ModeState(self.problem, self.modes, time, q, v, self.mode, self.least, self.closed)
 
+    def with_rates(self, v: Floats) -> ModeState:
+        """The same place at the same time with other rates, shape (n,)."""
+        return self._here(v, self.mode)
+
     def within(self, mode: Mode) -> ModeState:
         """The same state in another mode."""
-        return ModeState(self.problem, self.modes, self.time, self.q, self.v, mode, self.least, self.closed)
+        return self._here(self.v, mode)
+
+    def _here(self, v: Floats, mode: Mode) -> ModeState:
+        """A state at the same place and time; M depends on nothing else."""
+        found = ModeState(self.problem, self.modes, self.time, self.q, v, mode, self.least, self.closed)
+        if "mass" in self.__dict__:
+            found.__dict__["mass"] = self.mass
+        return found
 
     def with_flags(self, flags: tuple[float, ...]) -> ModeState:
         """The same state with other rows held."""
@@ -179,7 +191,7 @@ class ModeState:
     def pushed(self, row: int, change: float) -> ModeState:
         """The state behind an impulse along a row that changes its rate w by so much."""
         along = self.moved_by(self.facts.a[row])
-        return self.at(self.time, self.q, self.v + along * (change / (self.facts.a[row] @ along)))
+        return self.with_rates(self.v + along * (change / (self.facts.a[row] @ along)))
 
 
 def _solved(mass: Floats, forces: Floats) -> Floats:

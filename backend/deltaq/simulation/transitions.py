@@ -373,6 +373,8 @@ def _share(facts: Facts, row: int, others: list[int]) -> float:
 
 def _lost(current: ModeState, held: list[bool]) -> int | None:
     """The first row that is not held after all: no force between both sides, one too small, a contact that pulls."""
+    if not any(held):
+        return None
     facts, bounded = current.facts, current.modes.bounded
     lost = unkept(current, held)
     if lost is not None:
