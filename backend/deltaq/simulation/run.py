@@ -218,12 +218,11 @@ class _Task:
         start = perf_counter()
         result = run_kernel(method.tableau, arguments)
         wall_time = perf_counter() - start
-        found = _found(arguments, plan, result, wall_time, steps)
-        return found if arguments.watch.functions == 0 else _ended(found, arguments)
+        return _found(arguments, plan, result, wall_time, steps)
 
 
 def _found(arguments: KernelArguments, plan: Plan, result: Result, wall_time: float, steps: Steps) -> Run:
-    """What a kernel left, as far as it is finite."""
+    """What a kernel left, as far as it is finite, up to the event if there is one."""
     problem, times = arguments.problem, arguments.times
     out, conditioning = arguments.out, float(arguments.motion.conditioning[0])
     known = np.isfinite(out[: result.samples])
@@ -245,6 +244,8 @@ def _found(arguments: KernelArguments, plan: Plan, result: Result, wall_time: fl
     good = min(good, result.samples)
     if stride > 1:
         mesh_times, mesh_states = _to_the_end(mesh_times, mesh_states, times[:good], out[:good])
+    result, event, close = _watched(arguments, times[:good], result)
+    good = min(good, result.samples)
     return Run(
         times[:good],
         out[:good],
@@ -252,7 +253,9 @@ def _found(arguments: KernelArguments, plan: Plan, result: Result, wall_time: fl
         conditioning,
         wall_time,
         steps,
+        event=event,
         held=_stop(arguments) if result.outcome == HELD else None,
+        approaches=close,
         mesh_times=mesh_times,
         mesh_states=mesh_states,
         stride=stride,
@@ -318,24 +321,24 @@ def _stop(arguments: KernelArguments) -> Stop:
     return Stop(int(switch.which[0]), float(switch.when[0]), switch.middle.copy())
 
 
-def _ended(run: Run, arguments: KernelArguments) -> Run:
-    """The run up to the event, if there is one; a fixed step may have met one beyond the end."""
-    t_end = float(arguments.times[-1])
-    if run.held is not None:
-        return run
-    in_modes = arguments.problem.model.is_in_modes
-    found = quick_event if in_modes else first_event
-    event = found(arguments.problem, arguments.watch, t_end)
+def _watched(
+    arguments: KernelArguments, times: Floats, result: Result
+) -> tuple[Result, Event | None, tuple[Approach, ...]]:
+    """The result up to the event, if there is one; a fixed step may have met one beyond the end.
+
+    `times`, shape (samples,), are those that the kernel came to. Without an event it is told how close others came.
+    """
+    problem, watch, t_end = arguments.problem, arguments.watch, float(arguments.times[-1])
+    if not watch.functions or result.outcome == HELD:
+        return result, None, ()
+    in_modes = problem.model.is_in_modes
+    event = (quick_event if in_modes else first_event)(problem, watch, t_end)
     if event is None:
-        fine = run.result._replace(outcome=FINE) if run.result.outcome == EVENT else run.result
-        close = () if in_modes else approaches(arguments.problem, arguments.watch, t_end)
-        return replace(run, result=fine, approaches=close)
+        fine = result._replace(outcome=FINE) if result.outcome == EVENT else result
+        return fine, None, () if in_modes else approaches(problem, watch, t_end)
     close = APART * (arguments.times[1] - arguments.times[0])
-    count = max(int(np.searchsorted(run.times, event.time - close)), 1)
-    result = run.result._replace(outcome=EVENT, reached=event.time, samples=count)
-    reactions = run.reactions and run.reactions.first(count)
-    times, states = run.times[:count], run.states[:count]
-    return replace(run, times=times, states=states, result=result, event=event, reactions=reactions)
+    count = max(int(np.searchsorted(times, event.time - close)), 1)
+    return result._replace(outcome=EVENT, reached=event.time, samples=count), event, ()
 
 
 def _told_apart(result: Result, memory: Floats) -> Result:

@@ -59,9 +59,9 @@ def mesh_of(problem: Problem, found: Run) -> Mesh:
     event, width = found.event, 2 * problem.degrees
     times, states = found.mesh_times, found.mesh_states
     if event is not None and times.size:
-        inside = times < event.time
-        times = np.append(times[inside], event.time)
-        states = np.vstack([states[inside], event.state[None, :width]])
+        before = int(np.searchsorted(times, event.time))
+        times = np.concatenate([times[:before], [event.time]])
+        states = np.concatenate([states[:before], event.state[None, :width]])
     return Mesh(problem, float(found.times[0]), times, states, found.stride)
 
 
