@@ -33,7 +33,13 @@ class Writer:
 
 
 def as_numbers(values: Floats) -> Column:
-    """A list of the values of shape (samples,), or a list of rows of those of shape (samples, dimension)."""
+    """A list of the values of shape (samples,), or a list of rows of those of shape (samples, dimension).
+
+    Of what rests, as most points of a drawing do, one row stands for all: to make many of them takes long.
+    """
+    first: list[float] = values[:1].tolist()
+    if first and (values == values[0]).all():
+        return first * len(values)
     found: list[float] = values.tolist()
     return found
 

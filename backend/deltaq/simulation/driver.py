@@ -11,7 +11,7 @@ import numpy as np
 
 from ..errors import Problem as Mistake
 from ..errors import RequestError
-from ..model.modes import Modes, modes_of
+from ..model.modes import Modes, modes_of_model
 from .attempt import Attempt, Integrator
 from .audit import Audit, GuideJump
 from .conclusion import outcome
@@ -51,7 +51,7 @@ def simulate(
     if (step is None) == (tolerance is None):
         raise ValueError("give either a step or a tolerance")
     require_suitable(problem, method)
-    guide_jump, modes = Audit(problem, method).guide_jump(), modes_of(problem.model.scene)
+    guide_jump, modes = Audit(problem, method).guide_jump(), modes_of_model(problem.model)
     flag = np.zeros(1, dtype=np.int64) if cancelled is None else cancelled
     integrator = Integrator(
         problem if modes is None else replace(problem, model=modes.model),
@@ -193,8 +193,8 @@ def _with_both_sides(
     if not inside:
         return times, states, errors
     at = np.array([each.time for each in inside])
-    kept = ~np.isin(times, at)
-    beside = np.searchsorted(times, at)
+    beside, kept = np.searchsorted(times, at), np.ones(len(times), dtype=np.bool_)
+    kept[beside[times[beside] == at]] = False  # none is behind the last sample
     doubts = np.maximum(errors[np.maximum(beside - 1, 0)], errors[np.minimum(beside, len(times) - 1)])
     sides = np.array([state for each in inside for state in (each.before, each.after)])
     found = np.concatenate([times[kept], np.repeat(at, 2)])

@@ -85,8 +85,7 @@ def estimate(problem: Problem, coarse: Run, fine: Run, factor: float) -> Estimat
     doubts = np.vstack([errors, np.maximum(spread[n:], floor)])
     of_event = _of_event(problem, coarse, fine, factor, doubts[:, -1])
     doubtful = _doubtful(problem, coarse, fine, times, doubts)
-    spreads = _spread(factors * difference[: 2 * n] + np.minimum(difference[: 2 * n], CLOSE))
-    reactions = _of_multipliers(problem, coarse, fine, spreads, factors)
+    reactions = _of_multipliers(problem, coarse, fine, difference[: 2 * n], factors)
     return Estimate(errors.max(axis=0), worst, horizon, of_event, stop, doubtful, reactions)
 
 
@@ -151,10 +150,11 @@ def with_rounding(problem: Problem, found: Estimate, fine: Run, other: Run) -> E
     return replace(found, errors=errors, worst=worst, multipliers=reactions)
 
 
-def _of_multipliers(problem: Problem, coarse: Run, fine: Run, doubts: Floats, factors: Floats) -> Floats | None:
+def _of_multipliers(problem: Problem, coarse: Run, fine: Run, difference: Floats, factors: Floats) -> Floats | None:
     """The error of each multiplier, shape (samples, m); None where there are none.
 
-    λ follows from q and q̇ without any integration: its error is Σ |∂λ/∂y| times theirs, `doubts`, shape (2n, samples).
+    λ follows from q and q̇ without any integration: its error is Σ |∂λ/∂y| times theirs, by the `difference` of both
+    runs, shape (2n, samples), and the `factors`, shape (samples,).
     Where λ peaks, as in a rod that whips round, it may be a hundred times what it is in between, so that a difference
     of two λ spread over a neighbourhood would say too much there; but no sum says more than the largest difference
     nearby bears out, for λ may not depend on what is wrong, such as a direction. Rounding is that of the state, and of
@@ -163,6 +163,7 @@ def _of_multipliers(problem: Problem, coarse: Run, fine: Run, doubts: Floats, fa
     if fine.reactions is None or coarse.reactions is None:
         return None
     found, other = fine.reactions.multipliers.T, coarse.reactions.multipliers.T
+    doubts = _spread(factors * difference + np.minimum(difference, CLOSE))
     count = min(found.shape[1], other.shape[1], doubts.shape[1])
     found, other = found[:, :count], other[:, :count]
     largest = np.abs(found).max(axis=1, initial=0.0)[:, None]

@@ -87,10 +87,8 @@ def significant(values: Floats, digits: int) -> Floats:
     """
     sizes = np.abs(values)
     leading = np.floor(np.log10(sizes, out=np.zeros(len(sizes)), where=sizes > 0.0))
-    found = values.copy()
-    for place in np.unique(leading):
-        chosen, decimals = leading == place, digits - 1 - int(place)
-        if decimals <= EXACT:
-            with np.errstate(over="ignore"):
-                found[chosen] = _in_range(np.round(found[chosen], decimals), found[chosen])
-    return found
+    decimals = digits - 1 - leading.astype(np.int64)
+    scales = TENS[np.minimum(np.abs(decimals), EXACT)]
+    with np.errstate(over="ignore"):
+        found = np.where(decimals < 0, np.rint(values / scales) * scales, np.rint(values * scales) / scales)
+    return np.where(np.abs(decimals) <= EXACT, _in_range(found, values), values)
