@@ -401,6 +401,14 @@ def test_the_answer_tells_events() -> None:
     assert {each["name"] for each in events} == {"friction"}
 
 
+def test_events_are_told_by_the_names_of_the_scene_that_is_asked_for() -> None:
+    scene = load_scene("bouncing-ball")
+    renamed = replace(scene, events=tuple(replace(each, name="table") for each in scene.events))
+    for each in (scene, renamed):  # the same mechanics
+        found: Any = run({"scene": write_scene(each), "t_end": 1.0, "tolerance": 1e-6})
+        assert {event["name"] for event in found["events"]} == {event.name for event in each.events}
+
+
 @pytest.mark.parametrize("name", JUMPING)
 def test_scenes_that_jump_balance(name: str) -> None:
     """Energy, work and what impacts and friction take add up."""

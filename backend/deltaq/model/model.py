@@ -222,7 +222,7 @@ def _vectors(table: Floats, first: int, size: int, names: tuple[str, ...]) -> di
 def compile_model(scene: Scene) -> Model:
     """The model of a scene, built and compiled; it is kept as long as the process lives.
 
-    Scenes that differ only in numbers, names and drawing share theirs. None is kept on disk: what would be worth it is
+    Scenes that differ only in numbers, titles and drawing share theirs. None is kept on disk: what would be worth it is
     machine code, which whoever can write it can run, and compiling takes but 4 ms (22 ms for twelve links).
     """
     return _compiled_once(Mechanics.of(scene))
@@ -243,7 +243,7 @@ class Mechanics:
 
 def _mechanics(scene: Scene) -> tuple[object, ...]:
     names = tuple(c.name for c in scene.coordinates), tuple(p.name for p in scene.parameters)
-    events = tuple((event.value, event.then, event.restitution) for event in scene.events)
+    events = tuple((event.name, event.value, event.then, event.restitution) for event in scene.events)
     constraints = scene.conditions, tuple(symbol.name for symbol in scene.multipliers)
     return scene.dimension, names, scene.points, scene.bodies, scene.loads, scene.guides, events, constraints
 
