@@ -70,6 +70,8 @@ def test_vectors_are_rounded_by_their_sample() -> None:
         pytest.param(1.23456e-7, 3, 1.23e-7, id="small"),
         pytest.param(0.0, 3, 0.0, id="zero"),
         pytest.param(123456.0, 3, 123000.0, id="large"),
+        pytest.param(-123456789012345678.0, 15, -123456789012346000.0, id="above the digits that are kept"),
+        pytest.param(1.23456e25, 3, 1.23456e25, id="too large for powers of ten"),
         pytest.param(9.9999, 3, 10.0, id="a digit more"),
         pytest.param(0.1 + 0.2, 15, 0.3, id="fifteen"),
         pytest.param(1.23456e-20, 3, 1.23e-20, id="the last power of ten that is a double"),
