@@ -60,10 +60,10 @@ def _shares(part: Kinetics, scene: Scene, point: Point) -> Iterator[Share]:
     match part:
         case Translation(mass=mass, position=position):
             yield evaluate(mass, _guided(scene, point)), _tangents(position, scene, point)
-        case Rotation(angular_velocity=angular_velocity):
-            turning = [_turning(omega, scene, point) for omega in angular_velocity]
+        case Rotation():
+            turning = rates_of_turning(part, scene, point)
             for moment, weights in squares(part, _guided(scene, point)) or ():
-                yield moment, [[_weighted(weights, rates)] for rates in zip(*turning, strict=True)]
+                yield moment, [[_weighted(weights, rates)] for rates in turning]
         case Distribution(density=density, position=position, material=material):
             for weight, inside in nodes(material, point):
                 yield weight * evaluate(density, _guided(scene, inside)), _tangents(position, scene, inside)
@@ -105,8 +105,8 @@ def squares_of(matrix: Matrix) -> list[tuple[float, list[float]]] | None:
     return found
 
 
-def _weighted(weights: list[float], rates: tuple[list[float], ...]) -> float:
-    return sum(weight * rate for weight, (rate,) in zip(weights, rates, strict=True))
+def _weighted(weights: list[float], rates: tuple[float, ...]) -> float:
+    return sum(weight * rate for weight, rate in zip(weights, rates, strict=True))
 
 
 def _tangents(position: tuple[Node, ...], scene: Scene, point: Point) -> list[list[float]]:
@@ -118,6 +118,12 @@ def _tangents(position: tuple[Node, ...], scene: Scene, point: Point) -> list[li
 
     pairs = [(moved(c.name, STEP), moved(c.name, -STEP)) for c in scene.free]
     return [[(a - b) / (2 * STEP) for a, b in zip(ahead, behind, strict=True)] for ahead, behind in pairs]
+
+
+def rates_of_turning(part: Rotation, scene: Scene, point: Point) -> list[tuple[float, ...]]:
+    """∂ω/∂q̇ for every free coordinate, all components of each."""
+    turning = [_turning(omega, scene, point) for omega in part.angular_velocity]
+    return [tuple(rate for (rate,) in rates) for rates in zip(*turning, strict=True)]
 
 
 def _turning(omega: Node, scene: Scene, point: Point) -> list[list[float]]:

@@ -10,6 +10,7 @@ from ..language.expression import Expression
 from ..language.floats import evaluate
 from ..language.spelling import spell_rate
 from ..language.tree import Rate, walk
+from .body_axes import body_axes_problems
 from .contributions import Friction
 from .definedness import definedness_problems
 from .homogeneity import SECOND, dimension_problems
@@ -37,6 +38,7 @@ def soundness_problems(scene: Scene) -> Iterator[Problem]:
     yield from _units(scene, found)
     yield from _negative_friction(scene)
     yield from moment_problems(scene)
+    yield from body_axes_problems(scene)
     accelerated = tuple(_accelerations(found))
     undefined = tuple(definedness_problems(scene, ((field.pointer, field.expression) for field in found)))
     held = () if undefined else (*independence_problems(scene), *gap_problems(scene))

@@ -1,0 +1,82 @@
+"""Whether the components of an angular velocity belong to axes that are fixed in the body.
+
+With ω = Σ wⱼ q̇ⱼ along such axes, ∂wⱼ/∂qₖ − ∂wₖ/∂qⱼ = wⱼ × wₖ for each pair of coordinates, since the rotation that they
+come from has second derivatives that do not depend on their order. Along axes fixed in space the right side is wₖ × wⱼ.
+A body of revolution has the same kinetic energy along axes that do not spin with it, which is looked at as well.
+Source: Whittaker, A Treatise on the Analytical Dynamics of Particles and Rigid Bodies, 4th ed., §16.
+"""
+
+from __future__ import annotations
+
+import random
+from collections.abc import Iterator, Mapping
+from itertools import combinations
+
+from ..errors import Problem
+from .kinetics import Rotation
+from .mass import STEP, rates_of_turning, tensor
+from .scene import Scene
+
+POINTS = 3
+CLOSE = 1e-6  # of the sizes: differences are good to about 1e-10
+
+Vector = tuple[float, ...]
+AXES = range(3)
+
+
+def body_axes_problems(scene: Scene) -> Iterator[Problem]:
+    """Angular velocities of no rotation, which is a warning where moments that are equal make the energy right."""
+    points = list(_points(scene))
+    for index, body in enumerate(scene.bodies):
+        for part in body.kinetics:
+            if not isinstance(part, Rotation) or len(part.angular_velocity) != len(AXES):
+                continue
+            left = [gap for point in points for gap in _gaps(part, scene, point)]
+            if not any(abs(entry) > CLOSE for gap in left for entry in gap):
+                continue
+            is_right = all(_has_right_energy(tensor(part, point), left) for point in points)
+            place, told = f"/bodies/{index}/angular_velocity", {"name": body.name}
+            if is_right:
+                yield Problem("angular-velocity-beside-body", place, parameters=told, severity="warning")
+            else:
+                yield Problem("angular-velocity-of-none", place, parameters=told)
+
+
+def _gaps(part: Rotation, scene: Scene, point: Mapping[str, float]) -> Iterator[Vector]:
+    """∂wⱼ/∂qₖ − ∂wₖ/∂qⱼ − wⱼ × wₖ of all pairs, relative to the sizes in it; none where that has no value."""
+    here = rates_of_turning(part, scene, point)
+    slopes = [_slope(part, scene, point, coordinate.name) for coordinate in scene.free]
+    for j, k in combinations(range(len(here)), 2):
+        turned = _cross(here[j], here[k])
+        size = 1.0 + sum(abs(x) for each in (slopes[k][j], slopes[j][k], turned) for x in each)
+        yield tuple((slopes[k][j][i] - slopes[j][k][i] - turned[i]) / size for i in AXES)
+
+
+def _slope(part: Rotation, scene: Scene, point: Mapping[str, float], name: str) -> list[Vector]:
+    """∂wⱼ/∂q of all j by central differences."""
+    ahead, behind = (rates_of_turning(part, scene, {**point, name: point[name] + step}) for step in (STEP, -STEP))
+    pairs = zip(ahead, behind, strict=True)
+    return [tuple((a - b) / (2 * STEP) for a, b in zip(one, other, strict=True)) for one, other in pairs]
+
+
+def _cross(a: Vector, b: Vector) -> Vector:
+    return a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]
+
+
+def _has_right_energy(moments: list[list[float]], gaps: list[Vector]) -> bool:
+    """Whether the body looks the same along its own axes: any, or those that turn about its axis of revolution."""
+    size = max(abs(entry) for row in moments for entry in row)
+    products = max(abs(moments[k][l]) for k, l in combinations(AXES, 2))
+    if products > CLOSE * size:
+        return False
+    equal = [abs(moments[k - 2][k - 2] - moments[k - 1][k - 1]) <= CLOSE * size for k in AXES]
+    return all(equal) or any(equal[k] and all(abs(gap[k]) <= CLOSE for gap in gaps) for k in AXES)
+
+
+def _points(scene: Scene) -> Iterator[dict[str, float]]:
+    """Random configurations, with other parameters than the scene's: moments that are equal by chance are not."""
+    source = random.Random(1)
+    for _ in range(POINTS):
+        parameters = {p.name: p.value * source.uniform(0.7, 1.3) for p in scene.parameters}
+        coordinates = {c.name: c.value + source.uniform(0.2, 0.9) for c in scene.coordinates}
+        yield parameters | coordinates | {"t": source.uniform(0.1, 1.0)}
