@@ -57,12 +57,18 @@ class Narrator:
 
     def chapter(self, chapter: Chapter) -> Document:
         """A JSON object with `id`, `title` and `steps`; where titles are alike, each says whose step it is."""
-        title = text(self.language, f"rules.chapters.{chapter.id}")
+        title = text(self.language, f"rules.chapters.{self._chapter_title(chapter)}")
         titles = [self._title(step) for step in chapter.steps]
         steps = [
             self.step(step, whose=titles.count(title) > 1) for step, title in zip(chapter.steps, titles, strict=True)
         ]
         return {"id": chapter.id, "title": title, "steps": steps}
+
+    def _chapter_title(self, chapter: Chapter) -> str:
+        """The key of its own title where the outcome of one of its steps has one."""
+        known = keys(self.language, "rules.chapters")
+        own = (f"{chapter.id}-{step.about.get('outcome', '')}" for step in chapter.steps)
+        return next((key for key in own if key in known), chapter.id)
 
     def step(self, step: Step, *, whose: bool = False) -> Document:
         """A JSON object: `id`, `rule`, title and sentence in the language, the mathematics, the same of each substep.

@@ -1,7 +1,8 @@
 """Comparison of coefficients: the δqᵢ are independent, so δW = Qᵢ δqᵢ for all of them determines every Qᵢ.
 
-Qᵢ is the coefficient of δqᵢ, which is also Qᵢ = Σ F · ∂r/∂qᵢ for forces, ∫ f · ∂r/∂qᵢ dS for force densities, M ∂φ/∂qᵢ
-for moments, −∂V/∂qᵢ for potentials and −∂R/∂q̇ᵢ for dissipation.
+With constraints they are not, and Qᵢ is what stands before δqᵢ by definition.
+It is also Qᵢ = Σ F · ∂r/∂qᵢ for forces, ∫ f · ∂r/∂qᵢ dS for force densities, M ∂φ/∂qᵢ for moments, −∂V/∂qᵢ for
+potentials and −∂R/∂q̇ᵢ for dissipation.
 Source: Goldstein, Poole, Safko, Classical Mechanics, 3rd ed., eq. 1.49; the lecture's definition of Qᵢ.
 """
 
@@ -31,7 +32,8 @@ def apply(system: System) -> Step:
         Relation((Named(Quantity("virtual-work"), total), Plus(compared))),
         *(Relation((Named(Quantity("generalized-force", q), f), Explicit(f))) for q, f in forces.items()),
     )
-    step = Step(RULE, "", lines, tuple(f"load:{load.name}" for load in system.scene.loads))
+    about = {"outcome": "constrained" if system.conditions else "text"}
+    step = Step(RULE, "", lines, tuple(f"load:{load.name}" for load in system.scene.loads), about)
     return step.with_substeps(*(one(system, q) for q in system.free))
 
 

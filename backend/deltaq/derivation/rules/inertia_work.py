@@ -35,7 +35,15 @@ def apply(system: System, coordinate: str) -> Step:
     )
     value = Explicit(system.inertia_work(coordinate))
     line = Relation((Plus(inertia), value, by_energy))
-    return Step(RULE, coordinate, (line,), system.body_sources, {"coordinate": coordinate})
+    about = {"outcome": _outcome(system), "coordinate": coordinate}
+    return Step(RULE, coordinate, (line,), system.body_sources, about)
+
+
+def _outcome(system: System) -> str:
+    """Whether bodies turn, and in space."""
+    turning = [part for body in system.scene.bodies for part in body.kinetics if isinstance(part, Rotation)]
+    in_space = any(len(part.angular_velocity) > 1 for part in turning)
+    return "turning-in-space" if in_space else "turning" if turning else "text"
 
 
 def _inertia(system: System, part: Kinetics, coordinate: str) -> Iterator[Formula]:

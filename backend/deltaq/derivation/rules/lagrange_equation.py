@@ -1,4 +1,6 @@
-"""Lagrange's equation of the second kind: d/dt ∂L/∂q̇ᵢ − ∂L/∂qᵢ = Qᵢᵈ for every free coordinate.
+"""Lagrange's equation: d/dt ∂L/∂q̇ᵢ − ∂L/∂qᵢ = Qᵢᵈ for every free coordinate, of the second kind.
+
+With constraints on it the reactions Σ λ aᵢ stand on the right as well.
 
 Source: Lagrange, Mécanique analytique (1788); Goldstein, Poole, Safko, Classical Mechanics, 3rd ed., §1.4.
 """
@@ -27,7 +29,8 @@ def apply(system: System, coordinate: str) -> Step:
     written = Equation(Plus(terms) if terms else Explicit(system.zero), Explicit(sp.Integer(0)))
     sources = tuple(dict.fromkeys(source for term in terms for source in term.sources))
     line = Relation((Equation(law, outside(system, coordinate)), written), "⇔")
-    step = Step(RULE, coordinate, (line,), sources, {"coordinate": coordinate})
+    outcome = "constrained" if system.bound_by(coordinate) else "text"
+    step = Step(RULE, coordinate, (line,), sources, {"outcome": outcome, "coordinate": coordinate})
     return step.with_substeps(*parts(system, coordinate, lagrangian))
 
 

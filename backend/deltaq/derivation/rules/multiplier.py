@@ -32,6 +32,7 @@ def apply(system: System, condition: Condition, found: Multipliers) -> Step:
         Relation((Inserted(law, found.values), Explicit(system.zero))),
         Relation((Inserted(Explicit(symbol), found.values), Explicit(value))),
     )
-    about = {"constraint": condition.source}
+    outcome = "in-time" if value.has(system.t) else "text"
+    about = {"outcome": outcome, "constraint": condition.source}
     premises = (AUGMENTED, f"constraint-rates:{condition.source}")
     return Step(RULE, condition.source, lines, (f"constraint:{condition.source}",), about, premises=premises)

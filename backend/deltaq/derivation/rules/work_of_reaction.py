@@ -1,6 +1,7 @@
-"""Release: the constraint is let go and replaced by its reaction, which does no work where the constraint is kept.
+"""Release: the constraint is let go and replaced by its reaction.
 
-What vanishes for every δq with Σ aᵢ δqᵢ = 0 is a multiple of that sum: δWᶻ = λ Σ aᵢ δqᵢ. From here on all δqᵢ are free.
+The constraint is ideal: in virtual displacements that keep it the reaction does no work. What vanishes for every δq
+with Σ aᵢ δqᵢ = 0 is a multiple of that sum: δWᶻ = λ Σ aᵢ δqᵢ. From here on all δqᵢ are free.
 Source: Lagrange, Mécanique analytique (1788), part 1, sect. IV; Lanczos, The Variational Principles
 of Mechanics, ch. II.5.
 """
