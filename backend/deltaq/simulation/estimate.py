@@ -170,8 +170,10 @@ def _of_multipliers(problem: Problem, coarse: Run, fine: Run, difference: Floats
     rounding = OF_TERMS * largest / np.sqrt(fine.conditioning) if fine.conditioning > 0.0 else np.inf
     slopes, apart = _slopes(problem, fine, count), np.abs(other - found)
     doubts = _not_faded(doubts[:, :count])
-    differences = _not_faded(factors[:count] * apart + np.minimum(apart, CLOSE * largest))
-    errors = np.minimum(_summed(slopes, doubts), TURNING * _largest_within(differences, max(2, count // FAR)))
+    reach = max(2, count // FAR)
+    differences = factors[:count] * apart + np.minimum(apart, CLOSE * largest)
+    differences = _faded_with(differences, _largest_within(np.abs(found), reach))
+    errors = np.minimum(_summed(slopes, doubts), TURNING * _largest_within(differences, reach))
     own = _summed(slopes, OF_STATE * np.abs(fine.states[:count, : doubts.shape[0]].T))
     return _known(np.maximum(errors, np.maximum(own, rounding))).T
 
@@ -182,6 +184,16 @@ def _not_faded(errors: Floats) -> Floats:
     Towards the end, where nothing larger follows, both runs may come through zero, and that tells of no small error.
     """
     return np.asarray(np.maximum(errors, ANYWHERE * np.maximum.accumulate(errors, axis=1)))
+
+
+def _faded_with(errors: Floats, sizes: Floats) -> Floats:
+    """The same, but where a value itself fades away, its error does as well: the share is of relative errors, too.
+
+    `errors` and the `sizes` nearby have shape (rows, samples).
+    """
+    relative = np.divide(errors, sizes, out=np.zeros_like(errors), where=sizes > 0.0)
+    ever, ever_relative = np.maximum.accumulate(errors, axis=1), np.maximum.accumulate(relative, axis=1)
+    return np.asarray(np.maximum(errors, ANYWHERE * np.minimum(ever, ever_relative * sizes)))
 
 
 def _slopes(problem: Problem, fine: Run, count: int) -> Floats:
