@@ -25,6 +25,8 @@ from .side_by_side import side_by_side
 from .transitions import with_signs
 
 TRIES = 6
+LOOSE = 1e-5  # a tolerance from which on two runs that seem to meet it are compared with a third
+MOST_BEYOND = 4.0  # times the steps of a run: more than the third one takes
 ROUNDS = 4  # of shorter steps where a run was blind
 BY_EVENTS = 0.5  # of the difference, where a motion goes on behind events
 BY_IMPACTS = 1.0  # times the differences of runs that are shaken otherwise
@@ -303,15 +305,38 @@ class Integrator:
         """Pairs of runs, finer and finer, until the estimate meets the tolerance or refining does not help."""
         resolution = self.refinement.first(self.tolerance)
         found, pieces = self.pair(resolution, self.audit.before(self.tolerance))
-        attempts = [found]
+        attempts = [self._checked(found)]
         while len(attempts) < TRIES and _can_improve(attempts[-1], self.tolerance, self.problem):
             if self.refinement.is_finest(resolution):
                 break
             before, resolution = resolution, self.refinement.next(resolution, _excess(attempts[-1], self.tolerance))
             part = self.refinement.least_part(before, resolution)
             found, pieces = self.pair(resolution, self.refinement.finer(pieces, before, resolution), attempts[-1])
-            attempts.append(self._held_against(attempts[-1], self._at_least(part, attempts[-1], found)))
+            found = self._held_against(attempts[-1], self._at_least(part, attempts[-1], found))
+            attempts.append(self._checked(found))
         return attempts
+
+    def _checked(self, found: Attempt) -> Attempt:
+        """The attempt, its answer compared with a third run where two that are coarse seem to be good enough.
+
+        While steps are so long that errors do not fall as the order of a method says, no factor leads from the
+        difference of two runs to the error of the finer one. The third is so much finer that it tells that error.
+        """
+        steps = self.refinement.beyond(found.chosen.steps) if self._is_to_be_checked(found) else None
+        if steps is None:
+            return found
+        third, others = self._run(steps), found.runs[1 if found.is_shared else 0 : -1]
+        if not third.is_complete:
+            return replace(found, discarded=(*found.discarded, third))
+        told = estimate(self.judge, found.chosen, third, self.refinement.factor_by_third)
+        pair, discarded = (found.chosen, third), (*found.discarded, *others)
+        return replace(found, runs=pair, estimate=told, discarded=discarded, is_shared=False)
+
+    def _is_to_be_checked(self, found: Attempt) -> bool:
+        """Whether two runs to a loose tolerance seem to meet it, and a third one stays within the step limit."""
+        is_met = found.is_complete and found.estimate is not None and found.estimate.worst <= self.tolerance
+        is_affordable = MOST_BEYOND * found.chosen.result.steps < self.problem.step_limit
+        return is_met and is_affordable and self.tolerance >= LOOSE and self.modes is None
 
     def _held_against(self, before: Attempt, found: Attempt) -> Attempt:
         """The attempt, its answer held against the runs of the one before, too.

@@ -26,6 +26,7 @@ FARTHEST = 6.0  # what the ratio may be where a run is compared with one before
 SHRINK = 2.15  # of adaptive steps from the coarser run of a pair to the finer
 OFTEN = 3.0  # times as many steps as the longest would be: then they are rarely the longest
 CLOSEST, FARTHEST_TOLERANCE = 10.0, 110.0  # between these the tolerances of a pair are apart
+BEYOND = 30.0  # the local tolerance of the finer run of a pair over that of a third one
 MARGIN = 14.0  # how far errors may fall short of shrinking as the theory says
 ACROSS = 2.0  # the same from one attempt to a later one, between which chance evens out
 LEAST_PART = 0.3  # of how far tolerances are apart, where a run is compared with one before
@@ -50,6 +51,10 @@ class Refinement(Protocol):
     @property
     def factor_of_coarse(self) -> float:
         """What the difference of two runs is multiplied by to estimate the error of the coarser one."""
+
+    @property
+    def factor_by_third(self) -> float:
+        """The same for the finer run of a pair, by its difference from a third one."""
 
     @property
     def answer(self) -> int:
@@ -83,6 +88,9 @@ class Refinement(Protocol):
     def pair(self, resolution: float, pieces: Pieces, /) -> tuple[Steps, Steps]:
         """How to step for the coarser and the finer run at a resolution."""
 
+    def beyond(self, fine: Steps) -> Steps | None:
+        """How to step for a third run, still finer than a pair; None where no third one says more."""
+
     def next(self, resolution: float, excess: float) -> float:
         """The next resolution, where the error was `excess` times too large."""
 
@@ -103,6 +111,7 @@ class ByTolerance:
     t_end: float
     error_order: int
     factor_of_coarse: float = 1.35
+    factor_by_third: float = 2.0
     answer: int = LAST
 
     def factor_of_answer(self, coarse: Steps, fine: Steps) -> float:
@@ -144,6 +153,11 @@ class ByTolerance:
         apart = self._apart(fine) if pieces.is_whole else CLOSEST
         return Steps(largest, apart * fine), Steps(float(largest / apart ** (1.0 / self.error_order)), fine)
 
+    def beyond(self, fine: Steps) -> Steps | None:
+        part = float(BEYOND ** (-1.0 / self.error_order))
+        pieces = None if fine.pieces is None else fine.pieces.scaled(part)
+        return Steps(part * fine.size, fine.tolerance / BEYOND, pieces)
+
     def next(self, resolution: float, excess: float) -> float:
         """A tolerance by what is still missing, far enough for this pair's finer run to be the next one's coarser."""
         far = resolution / (1.01 * LEAST_PART * self._apart(0.1 * resolution))
@@ -169,6 +183,7 @@ class BySeries:
     ahead: float = AHEAD
     below: float = BELOW
     factor_of_coarse: float = 2.0
+    factor_by_third: float = 2.0
     answer: int = FIRST
 
     def factor_of_answer(self, coarse: Steps, _fine: Steps) -> float:
@@ -202,6 +217,9 @@ class BySeries:
         coarse = Steps(largest, resolution, order=self.scheme.order_for(resolution))
         return coarse, Steps(largest / APART, finer, order=self.scheme.order_for(finer))
 
+    def beyond(self, _fine: Steps) -> Steps | None:
+        return None
+
     def next(self, resolution: float, excess: float) -> float:
         return self._told_apart(resolution * max(0.1 / excess, 1e-6))
 
@@ -229,6 +247,10 @@ class ByStep:
     def factor_of_coarse(self) -> float:
         return float(2.5 * FINER**self.sure / (FINER**self.sure - 1))
 
+    @property
+    def factor_by_third(self) -> float:
+        return self.factor_of_coarse
+
     def factor_of_answer(self, coarse: Steps, fine: Steps) -> float:
         return float(max(0.03, self.factor_across(coarse, fine)))
 
@@ -254,6 +276,10 @@ class ByStep:
 
     def pair(self, resolution: float, _pieces: Pieces) -> tuple[Steps, Steps]:
         return Steps(resolution), Steps(resolution, ratio=self._apart)
+
+    def beyond(self, fine: Steps) -> Steps | None:
+        pieces = None if fine.pieces is None else fine.pieces.scaled(1.0 / FINER)
+        return Steps(fine.size, pieces=pieces, ratio=FINER * fine.ratio)
 
     def next(self, resolution: float, excess: float) -> float:
         shrink = float((0.5 / excess) ** (1.0 / self.order)) if excess < np.inf else UNFINISHED
