@@ -32,6 +32,7 @@ OPTIONS = (
     *("-n0", "--every-case", "-q"),
     *("--capture", "sys"),
     *("-p", "no:cacheprovider"),
+    *("--timeout", "0", "-o", "faulthandler_timeout=0"),  # each test has a limit of its own, by the same timer
     *("-W", "ignore::pytest.PytestAssertRewriteWarning"),
 )
 MEMORY = 8 << 30
