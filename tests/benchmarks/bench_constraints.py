@@ -47,7 +47,7 @@ def on_springs() -> Scene:
 
 def seconds(problem: Problem, method: Method) -> float:
     """The time of one step of a run."""
-    count = EVALUATIONS // method.tableau.stages
+    count = EVALUATIONS // method.scheme.stages
     found = run(problem, method, np.array([0.0, count * STEP]), np.zeros(1, dtype=np.int64), Steps(STEP))
     if not found.is_complete:
         raise RuntimeError(f"{method.id} ended at {found.result.reached:.1f} s: outcome {found.result.outcome}")

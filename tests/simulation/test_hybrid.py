@@ -95,7 +95,7 @@ def test_what_a_room_hands_out_again_is_as_new(name: str) -> None:
     modes = modes_of(scene_here(name))
     assert modes is not None
     problem = in_first_mode(problem_of(modes.scene, 5.0), modes)
-    scheme, flag, first = get_method("dop853").tableau, np.zeros(1, dtype=np.int64), 2 * problem.degrees + 1
+    scheme, flag, first = get_method("dop853").scheme, np.zeros(1, dtype=np.int64), 2 * problem.degrees + 1
     workspace, finish = Workspace(), Finish.of(get_method("dop853"))
     watch, motion = workspace.watch(problem, flag, scheme), workspace.motion(problem, is_long=False, finish=finish)
     for array in (*watch[4:5], *watch[6:12], motion.inputs, motion.conditioning):

@@ -19,8 +19,8 @@ from deltaq.simulation.method import Method, Newmark, Partitioned, Tableau
 from deltaq.simulation.stability import growth, real_stability
 
 METHODS = [pytest.param(get_method(identifier), id=identifier) for identifier in method_ids()]
-EXPLICIT = [case for case in METHODS if isinstance(case.values[0].tableau, Tableau)]
-IMPLICIT = [case for case in METHODS if isinstance(case.values[0].tableau, Partitioned)]
+EXPLICIT = [case for case in METHODS if isinstance(case.values[0].scheme, Tableau)]
+IMPLICIT = [case for case in METHODS if isinstance(case.values[0].scheme, Partitioned)]
 
 
 # one tableau for everything
@@ -58,7 +58,7 @@ def test_docstrings_say_what_is_known(module: object) -> None:
 
 @pytest.mark.parametrize("method", EXPLICIT)
 def test_each_stage_starts_where_its_weights_say(method: Method) -> None:
-    t = method.tableau
+    t = method.scheme
     for row, c in zip((*t.a, *t.extra_a), (*t.c, *t.extra_c), strict=True):
         assert abs(sum(row) - c) < Fraction(1, 10**25)
 
@@ -72,14 +72,14 @@ def full(rows: tuple[tuple[Fraction, ...], ...], width: int) -> np.ndarray:
 
 @pytest.mark.parametrize("method", IMPLICIT)
 def test_each_implicit_stage_lies_where_its_weights_say(method: Method) -> None:
-    t = method.tableau
+    t = method.scheme
     assert all(abs(sum(row) - c) < Fraction(1, 10**25) for row, c in zip(t.a, t.c, strict=True))
 
 
 @pytest.mark.parametrize("method", [case for case in METHODS if case.values[0].id in PLAIN])
 def test_order_conditions(method: Method) -> None:
     """Of rooted trees up to order 5 (Butcher), and of quadrature up to the order stated, in exact arithmetic."""
-    t = method.tableau
+    t = method.scheme
     a, b, c = full(t.a, t.stages), np.array(t.b), np.array(t.c)
     conditions = [(k, b @ c ** (k - 1), Fraction(1, k)) for k in range(1, method.order + 1)]
     conditions += [
@@ -102,14 +102,14 @@ def test_order_conditions(method: Method) -> None:
 
 @pytest.mark.parametrize("method", EXPLICIT)
 def test_error_weights_vanish_on_constants(method: Method) -> None:
-    assert all(abs(sum(row)) < Fraction(1, 10**25) for row in method.tableau.error)
+    assert all(abs(sum(row)) < Fraction(1, 10**25) for row in method.scheme.error)
 
 
 @pytest.mark.parametrize(
     ("identifier", "solver"), [("bogacki-shampine-32", RK23), ("dormand-prince-54", RK45), ("dop853", DOP853)]
 )
 def test_coefficients_are_the_published_ones(identifier: str, solver: type) -> None:
-    weights, stages = explicit_weights(get_method(identifier).tableau), solver.n_stages
+    weights, stages = explicit_weights(get_method(identifier).scheme), solver.n_stages
     width = solver.A.shape[1]
     np.testing.assert_allclose(weights.a[:, :width], solver.A[1:stages, :stages], rtol=1e-15)
     np.testing.assert_allclose(weights.b, solver.B, rtol=1e-15)
@@ -119,7 +119,7 @@ def test_coefficients_are_the_published_ones(identifier: str, solver: type) -> N
 
 
 def test_dop853_error_and_extension_are_the_published_ones() -> None:
-    weights = explicit_weights(get_method("dop853").tableau)
+    weights = explicit_weights(get_method("dop853").scheme)
     np.testing.assert_allclose(weights.error, [published.E5, published.E3], rtol=1e-15, atol=1e-16)
     np.testing.assert_allclose(weights.dense, published.D, rtol=1e-15)
     np.testing.assert_allclose(weights.extra_a, published.A[13:16], rtol=1e-15)
@@ -190,7 +190,7 @@ def test_samples_between_steps_are_as_good_as_the_extension(identifier: str, ord
     ],
 )
 def test_stability_intervals_are_those_of_the_docstrings(identifier: str, real: float, imaginary: float) -> None:
-    t = get_method(identifier).tableau
+    t = get_method(identifier).scheme
     assert growth(t, -real + 0.01) <= 1 < growth(t, -real - 0.01)
     assert growth(t, 1j * (imaginary + 0.02)) > 1
     assert growth(t, 1j * (imaginary - 0.01)) <= 1 + 1e-12 or imaginary == 0.0
@@ -199,7 +199,7 @@ def test_stability_intervals_are_those_of_the_docstrings(identifier: str, real: 
 
 @pytest.mark.parametrize("identifier", ["implicit-midpoint", "variational-midpoint", "gauss-4", "gauss-6", "radau-5"])
 def test_implicit_methods_are_a_stable(identifier: str) -> None:
-    t, z = get_method(identifier).tableau, np.array([-1e-3, -1.0, -1e3, -1 + 5j, -1e-2 + 100j])
+    t, z = get_method(identifier).scheme, np.array([-1e-3, -1.0, -1e3, -1 + 5j, -1e-2 + 100j])
     assert all(growth(t, place) < 1 for place in z)
     on_axis = [growth(t, 1j * y) for y in (0.1, 1.0, 10.0, 1e3)]
     if get_method(identifier).is_symplectic:
@@ -209,7 +209,7 @@ def test_implicit_methods_are_a_stable(identifier: str) -> None:
 
 
 def test_newmark_is_average_acceleration() -> None:
-    scheme = get_method("newmark").tableau
+    scheme = get_method("newmark").scheme
     assert isinstance(scheme, Newmark)
     assert (float(scheme.beta), float(scheme.gamma)) == (0.25, 0.5)
 
@@ -224,4 +224,4 @@ def test_growth_is_what_a_step_does(identifier: str, z: complex) -> None:
         run = simulated(oscillator(f"m*({force})", x=x, u=u), identifier, 1.0, 2, step=1.0)
         columns.append([run.values[-1, 0], run.rates[-1, 0]])
     radius = np.abs(np.linalg.eigvals(np.array(columns).T)).max()
-    assert growth(get_method(identifier).tableau, np.complex128(z)) == pytest.approx(radius, rel=1e-7)
+    assert growth(get_method(identifier).scheme, np.complex128(z)) == pytest.approx(radius, rel=1e-7)

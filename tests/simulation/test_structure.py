@@ -129,8 +129,8 @@ def test_variational_midpoint_is_the_midpoint_rule(name: str) -> None:
 def test_kick_and_drift_are_the_general_scheme(identifier: str, monkeypatch: pytest.MonkeyPatch) -> None:
     """Where positions and momenta separate, the explicit kernel and the implicit one give the same motion."""
     explicit = simulated(oscillator("-k*x^3 + F0*cos(omega*t)"), identifier, 10.0, step=0.01)
-    scheme = get_method(identifier).tableau
-    general = replace(get_method(identifier), tableau=replace(scheme, kicks=(), drifts=()))
+    scheme = get_method(identifier).scheme
+    general = replace(get_method(identifier), scheme=replace(scheme, kicks=(), drifts=()))
     implicit = simulate(problem_of(oscillator("-k*x^3 + F0*cos(omega*t)"), 10.0), general, step=0.01)
     np.testing.assert_allclose(explicit.values, implicit.values, atol=1e-11)
     assert isinstance(scheme, Partitioned)

@@ -162,7 +162,7 @@ def followed(problem: Problem, rhythm: Rhythm, periods: int = PERIODS) -> Iterat
 def _deviation(problem: Problem, rhythm: Rhythm, count: int) -> Deviation:
     """A deviation at the start, with room for so many stretches."""
     method, state = get_method(METHOD), problem.state
-    scheme = method.tableau
+    scheme = method.scheme
     if not isinstance(scheme, Tableau):
         raise TypeError("the tangent dynamics steps by an explicit Runge–Kutta method")
     driven = drive(problem, state)

@@ -112,7 +112,7 @@ class Failure:
 def failure(neighbours: Neighbours, method: Method) -> Failure:
     """Where a method with fixed steps fails on a motion."""
     if neighbours.fastest == 0.0:
-        return Failure(largest_stable_step(method.tableau, neighbours.eigenvalues), math.inf, math.inf, "")
+        return Failure(largest_stable_step(method.scheme, neighbours.eigenvalues), math.inf, math.inf, "")
     basis: Basis = LINEARIZATION if neighbours.is_constant else FLOW
     bound, predicted = _predicted(neighbours, method) if basis == LINEARIZATION else (None, None)
     trial = _Trial(neighbours, method, basis)
@@ -125,7 +125,7 @@ def failure(neighbours: Neighbours, method: Method) -> Failure:
 def _predicted(neighbours: Neighbours, method: Method) -> tuple[float, float]:
     """The largest step with which nothing grows, and the first with which something grows too much."""
 
-    grown = step_growth(method.tableau, neighbours.linear)
+    grown = step_growth(method.scheme, neighbours.linear)
 
     def first(least: float) -> float:
         def verdict(h: float) -> Verdict:
@@ -134,7 +134,7 @@ def _predicted(neighbours: Neighbours, method: Method) -> tuple[float, float]:
         return GRIDS[LINEARIZATION].first(verdict, neighbours.fastest)[0]
 
     by_eigenvalues = method.is_explicit or neighbours.drive > 0.0
-    bound = largest_stable_step(method.tableau, neighbours.eigenvalues) if by_eigenvalues else first(ROUNDING)
+    bound = largest_stable_step(method.scheme, neighbours.eigenvalues) if by_eigenvalues else first(ROUNDING)
     return bound, first(FAILING)
 
 

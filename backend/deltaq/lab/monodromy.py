@@ -173,7 +173,7 @@ def surveyed(problem: InitialValueProblem, start: Floats, cancelled: Flag, table
 
 def _surveyed(problem: InitialValueProblem, start: Floats, cancelled: Flag, table: Survey) -> tuple[Found, Meshes]:
     """What steps find that are bounded as the table says, and where those beside the periodic motions end."""
-    scheme = get_method(METHOD).tableau
+    scheme = get_method(METHOD).scheme
     if not isinstance(scheme, Tableau):
         raise TypeError("the survey steps by an explicit Runge–Kutta method")
     weights, width, count = explicit_weights(scheme), 2 * problem.degrees, table.periods.size

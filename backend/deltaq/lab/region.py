@@ -20,6 +20,6 @@ SPECK = 8  # lines of fewer points are artefacts of the grid
 def region(method: Method) -> list[list[list[float]]]:
     """The boundary |R(z)| = 1: closed or open lines [[x, y], …], in both half planes."""
     x, y = np.linspace(*REAL, FINE + 1), np.linspace(-IMAGINARY, IMAGINARY, FINE + 1)
-    sizes = np.nan_to_num(growth(method.tableau, x + 1j * y[:, None] + ASIDE), nan=2.0, posinf=2.0)
+    sizes = np.nan_to_num(growth(method.scheme, x + 1j * y[:, None] + ASIDE), nan=2.0, posinf=2.0)
     lines = contour_generator(x, y, np.minimum(sizes, 2.0)).lines(1.0)
     return [[rounded(point, 4) for point in np.asarray(line)] for line in lines if len(line) > SPECK]

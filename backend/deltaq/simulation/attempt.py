@@ -295,7 +295,7 @@ class Integrator:
 
     def _both(self, coarse: Steps, fine: Steps) -> tuple[Run, Run]:
         """Two runs; side by side if they may take a while, for kernels hold no lock."""
-        work = self.problem.t_end * fine.ratio * self.method.tableau.stages
+        work = self.problem.t_end * fine.ratio * self.method.scheme.stages
         if self.modes is not None or (coarse.tolerance == 0.0 and work < BRIEF * fine.size):
             return self._run(coarse), self._finer(fine)
         of_fine, of_coarse = side_by_side(lambda: self._finer(fine), lambda: self._run(coarse))

@@ -402,7 +402,7 @@ def _jumps(times: Floats, q: Floats, v: Floats, shortest: float) -> Floats:
 @cache
 def largest_gap_of_watch(method: Method) -> float:
     """The largest distance, in steps, between neighbouring places in which a step is looked at for events."""
-    count = NODES_OF_SERIES if isinstance(method.tableau, Series) else NODES
+    count = NODES_OF_SERIES if isinstance(method.scheme, Series) else NODES
     return float(np.diff(places_of_watch(count)).max())
 
 
@@ -410,7 +410,7 @@ def largest_gap_of_watch(method: Method) -> float:
 def largest_gap(method: Method) -> float:
     """The largest distance, in steps, between neighbouring times at which a method evaluates the right-hand side."""
     places = sorted(
-        {float(place) % 1.0 for place in getattr(method.tableau, "c", (0,))}
-        | {0.0 if method.is_explicit else float(getattr(method.tableau, "c", (0,))[0])}
+        {float(place) % 1.0 for place in getattr(method.scheme, "c", (0,))}
+        | {0.0 if method.is_explicit else float(getattr(method.scheme, "c", (0,))[0])}
     )
     return max(b - a for a, b in zip(places, [*places[1:], places[0] + 1.0], strict=True))

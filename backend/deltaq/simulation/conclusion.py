@@ -91,7 +91,7 @@ def _ended(best: Attempt, told: dict[str, Number]) -> Outcome:
 
 def _grown(problem: Problem, method: Method, step: float, told: dict[str, Number]) -> Outcome:
     """A motion that grew beyond all bounds: because the step is outside of the region of stability, or by itself."""
-    bound = largest_stable_step(method.tableau, eigenvalues(problem, 0.0, problem.state[: 2 * problem.degrees]))
+    bound = largest_stable_step(method.scheme, eigenvalues(problem, 0.0, problem.state[: 2 * problem.degrees]))
     if 0.0 < bound < step:
         return Outcome("diverged", "unstable_step", told | {"step": short(step), "bound": short(bound)})
     return outcome_of(TOO_LARGE, told)

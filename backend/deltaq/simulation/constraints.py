@@ -40,8 +40,8 @@ class Finish(Enum):
     @classmethod
     def of(cls, method: Method) -> Finish:
         """What a method asks for."""
-        if not isinstance(method.tableau, Partitioned):
-            is_short = isinstance(method.tableau, Tableau) and method.is_explicit and method.tableau.stages == 1
+        if not isinstance(method.scheme, Partitioned):
+            is_short = isinstance(method.scheme, Tableau) and method.is_explicit and method.scheme.stages == 1
             return cls.LANDED if is_short else cls.DERIVATIVE
         return cls.STATE
 

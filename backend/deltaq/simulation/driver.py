@@ -78,12 +78,12 @@ def require_suitable(problem: Problem, method: Method, pointer: str = "/method")
 
 def is_suitable(problem: Problem, method: Method) -> bool:
     """Whether a method can do a problem: series have no way back to constraints yet."""
-    return not (problem.is_constrained and isinstance(method.tableau, Series))
+    return not (problem.is_constrained and isinstance(method.scheme, Series))
 
 
 def _refinement(problem: Problem, method: Method, tolerance: float | None, modes: Modes | None) -> Refinement:
-    if tolerance is not None and isinstance(method.tableau, Series):
-        return BySeries(problem.t_end, method.tableau)
+    if tolerance is not None and isinstance(method.scheme, Series):
+        return BySeries(problem.t_end, method.scheme)
     if tolerance is not None and method.is_adaptive:
         return ByTolerance(problem.t_end, method.error_order or method.order)
     sure = 1 if (problem if modes is None else modes).model.tape.has_choices else method.order

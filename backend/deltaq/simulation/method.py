@@ -142,7 +142,7 @@ class Method:
 
     id: str
     order: int
-    tableau: Scheme
+    scheme: Scheme
     error_order: int = 0
     memory: float = 0.0
 
@@ -151,25 +151,25 @@ class Method:
 
     @property
     def family(self) -> str:
-        return self.tableau.family
+        return self.scheme.family
 
     @property
     def is_symplectic(self) -> bool:
-        return self.tableau.is_symplectic
+        return self.scheme.is_symplectic
 
     @property
     def is_symmetric(self) -> bool:
         """Whether a step back undoes a step."""
-        return self.tableau.is_symmetric
+        return self.scheme.is_symmetric
 
     @property
     def is_adaptive(self) -> bool:
         """Whether it has an embedded error estimate to choose its steps by."""
-        return bool(self.tableau.error)
+        return bool(self.scheme.error)
 
     @property
     def is_explicit(self) -> bool:
-        return isinstance(self.tableau, Tableau | Series)
+        return isinstance(self.scheme, Tableau | Series)
 
 
 def discrete_action(a: tuple[Row, ...], b: Row, c: Row) -> Partitioned:

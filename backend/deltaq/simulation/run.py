@@ -158,7 +158,7 @@ def run(
     Runs that follow one another may share a `workspace`.
     """
     task = _Task(problem, method, times, cancelled, steps, workspace or Workspace())
-    model, stages, limit = problem.model, method.tableau.stages, problem.step_limit
+    model, stages, limit = problem.model, method.scheme.stages, problem.step_limit
     shortest = limit * stages <= SHORT
     known = float(times[-1]) / steps.size * steps.ratio * stages if steps.tolerance == 0.0 else 0.0
     if shortest or not (model.is_thorough or max(known, model.usage.evaluations) > SHORT):
@@ -201,14 +201,14 @@ class _Task:
         """A run of so many steps at most."""
         problem, method, times, steps, workspace = self.problem, self.method, self.times, self.steps, self.workspace
         plan = steps.plan(float(times[0]), float(times[-1]), problem.degrees, method)
-        is_series = isinstance(method.tableau, Series)
+        is_series = isinstance(method.scheme, Series)
         if is_series:
             jet_of_model(problem.model, is_long=is_long)  # compiled before the time is taken
         arguments = KernelArguments(
             problem,
             workspace.motion(problem, is_long=is_long and not is_series, finish=Finish.of(method)),
             _control(limit, method, steps, plan),
-            workspace.watch(problem, self.cancelled, method.tableau),
+            workspace.watch(problem, self.cancelled, method.scheme),
             np.ascontiguousarray(times),  # a kernel is compiled anew for an array with strides
             np.zeros((times.size, problem.width)),
             is_long,
@@ -216,7 +216,7 @@ class _Task:
             steps.is_nudged,
         )
         start = perf_counter()
-        result = run_kernel(method.tableau, arguments)
+        result = run_kernel(method.scheme, arguments)
         wall_time = perf_counter() - start
         return _found(arguments, plan, result, wall_time, steps)
 
@@ -309,8 +309,8 @@ def _control(limit: int, method: Method, steps: Steps, plan: Plan) -> Control:
         float(method.error_order or method.order),
         float(method.memory),
         limit,
-        int(method.tableau.stages),
-        real_stability(method.tableau),
+        int(method.scheme.stages),
+        real_stability(method.scheme),
         plan,
     )
 

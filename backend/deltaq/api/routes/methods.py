@@ -32,7 +32,7 @@ def _entry(identifier: str, language: Language) -> dict[str, Any]:
         "title": text(language, f"methods.{method.id}.title"),
         "summary": text(language, f"methods.{method.id}.summary"),
         "order": method.order,
-        "stages": method.tableau.stages,
+        "stages": method.scheme.stages,
         "family": method.family,
         "adaptive": method.is_adaptive,
         "symplectic": method.is_symplectic,

@@ -19,7 +19,7 @@ A = """
 METHOD = Method(
     "bogacki-shampine-32",
     order=3,
-    tableau=Tableau(
+    scheme=Tableau(
         a=rows(A),
         b=row("2/9 1/3 4/9"),
         c=row("0 1/2 3/4"),

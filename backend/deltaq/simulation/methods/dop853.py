@@ -122,7 +122,7 @@ _B = sparse(B, STAGES)
 METHOD = Method(
     "dop853",
     order=8,
-    tableau=Tableau(
+    scheme=Tableau(
         a=tuple(sparse(text, width) for width, text in enumerate(A)),
         b=_B,
         c=row(C),

@@ -29,7 +29,7 @@ DENSE = """
 METHOD = Method(
     "dormand-prince-54",
     order=5,
-    tableau=Tableau(a=rows(A), b=row(B), c=row(C), error=rows(ERROR), dense=(row(DENSE),)),
+    scheme=Tableau(a=rows(A), b=row(B), c=row(C), error=rows(ERROR), dense=(row(DENSE),)),
     error_order=5,
     memory=0.04,
 )

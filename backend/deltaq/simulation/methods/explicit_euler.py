@@ -9,4 +9,4 @@ from __future__ import annotations
 
 from ..method import Method, Tableau, row, rows
 
-METHOD = Method("explicit-euler", order=1, tableau=Tableau(a=rows("-"), b=row("1"), c=row("0")))
+METHOD = Method("explicit-euler", order=1, scheme=Tableau(a=rows("-"), b=row("1"), c=row("0")))

@@ -15,4 +15,4 @@ Q, S = Fraction(1, 4), root(3) / 6
 HALF = Fraction(1, 2)
 A = ((Q, Q - S), (Q + S, Q))
 
-METHOD = Method("gauss-4", order=4, tableau=Partitioned(a=A, b=(HALF, HALF), c=(HALF - S, HALF + S), momentum_a=A))
+METHOD = Method("gauss-4", order=4, scheme=Partitioned(a=A, b=(HALF, HALF), c=(HALF - S, HALF + S), momentum_a=A))

@@ -20,4 +20,4 @@ A = (
 B = (F(5, 18), F(4, 9), F(5, 18))
 C = (F(1, 2) - R / 10, F(1, 2), F(1, 2) + R / 10)
 
-METHOD = Method("gauss-6", order=6, tableau=Partitioned(a=A, b=B, c=C, momentum_a=A))
+METHOD = Method("gauss-6", order=6, scheme=Partitioned(a=A, b=B, c=C, momentum_a=A))

@@ -14,4 +14,4 @@ A = """
 1
 """
 
-METHOD = Method("heun", order=2, tableau=Tableau(a=rows(A), b=row("1/2 1/2"), c=row("0 1")))
+METHOD = Method("heun", order=2, scheme=Tableau(a=rows(A), b=row("1/2 1/2"), c=row("0 1")))

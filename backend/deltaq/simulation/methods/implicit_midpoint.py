@@ -12,4 +12,4 @@ from ..method import Method, Partitioned, row, rows
 
 HALF = rows("1/2")
 
-METHOD = Method("implicit-midpoint", order=2, tableau=Partitioned(a=HALF, b=row("1"), c=row("1/2"), momentum_a=HALF))
+METHOD = Method("implicit-midpoint", order=2, scheme=Partitioned(a=HALF, b=row("1"), c=row("1/2"), momentum_a=HALF))

@@ -12,4 +12,4 @@ from fractions import Fraction
 
 from ..method import Method, Newmark
 
-METHOD = Method("newmark", order=2, tableau=Newmark(beta=Fraction(1, 4), gamma=Fraction(1, 2)))
+METHOD = Method("newmark", order=2, scheme=Newmark(beta=Fraction(1, 4), gamma=Fraction(1, 2)))

@@ -23,5 +23,5 @@ GAMMA = F("0.27488882959230820")  # the real eigenvalue of A
 ERROR = (GAMMA, GAMMA / 3 * (-13 - 7 * R), GAMMA / 3 * (-13 + 7 * R), -GAMMA / 3)
 
 METHOD = Method(
-    "radau-5", order=5, tableau=Partitioned(a=A, b=A[2], c=C, momentum_a=A, error=ERROR), error_order=4
+    "radau-5", order=5, scheme=Partitioned(a=A, b=A[2], c=C, momentum_a=A, error=ERROR), error_order=4
 )  # fmt: skip

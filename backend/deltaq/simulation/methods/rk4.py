@@ -16,4 +16,4 @@ A = """
 0 0 1
 """
 
-METHOD = Method("rk4", order=4, tableau=Tableau(a=rows(A), b=row("1/6 1/3 1/3 1/6"), c=row("0 1/2 1/2 1")))
+METHOD = Method("rk4", order=4, scheme=Tableau(a=rows(A), b=row("1/6 1/3 1/3 1/6"), c=row("0 1/2 1/2 1")))

@@ -21,4 +21,4 @@ SCHEME = replace(
     discrete_action(a=rows(A), b=row("1/2 1/2"), c=row("0 1")), kicks=row("1/2 1/2"), drifts=row("1 0")
 )  # fmt: skip
 
-METHOD = Method("stormer-verlet", order=2, tableau=SCHEME)
+METHOD = Method("stormer-verlet", order=2, scheme=SCHEME)

@@ -14,4 +14,4 @@ from ..method import Method, discrete_action, row, rows
 
 SCHEME = replace(discrete_action(a=rows("0"), b=row("1"), c=row("0")), kicks=row("1"), drifts=row("1"))
 
-METHOD = Method("symplectic-euler", order=1, tableau=SCHEME)
+METHOD = Method("symplectic-euler", order=1, scheme=SCHEME)

@@ -13,4 +13,4 @@ from __future__ import annotations
 
 from ..method import Method, Series
 
-METHOD = Method("taylor", order=8, tableau=Series(8), error_order=8)
+METHOD = Method("taylor", order=8, scheme=Series(8), error_order=8)

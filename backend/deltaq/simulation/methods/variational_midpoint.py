@@ -13,5 +13,5 @@ from __future__ import annotations
 from ..method import Method, discrete_action, row, rows
 
 METHOD = Method(
-    "variational-midpoint", order=2, tableau=discrete_action(a=rows("1/2"), b=row("1"), c=row("1/2"))
+    "variational-midpoint", order=2, scheme=discrete_action(a=rows("1/2"), b=row("1"), c=row("1/2"))
 )  # fmt: skip
