@@ -16,7 +16,7 @@ from deltaq.simulation.audit import Audit, largest_gap
 from deltaq.simulation.driver import simulate
 from deltaq.simulation.kernels.motion import FINE
 from deltaq.simulation.library import get_method, method_ids
-from deltaq.simulation.pieces import Pieces, Stretch
+from deltaq.simulation.pieces import Pieces, BlindStretch
 from deltaq.simulation.run import Mesh, Steps
 from deltaq.simulation.run import run as run_once
 from deltaq.simulation.service import problem_of, run
@@ -315,8 +315,8 @@ def test_steps_behind_an_event_count_from_there() -> None:
 
 def test_the_first_stretch_that_a_step_misses() -> None:
     pieces = Pieces((1.0, 2.0, 2.1, 3.0), (3.0, 0.01, 3.0, 0.001))
-    assert pieces.needed_by(0.1) == Stretch(1.0, 2.0, 0.01)
-    assert pieces.needed_by(0.005) == Stretch(2.1, 3.0, 0.001)
+    assert pieces.needed_by(0.1) == BlindStretch(1.0, 2.0, 0.01)
+    assert pieces.needed_by(0.005) == BlindStretch(2.1, 3.0, 0.001)
     assert pieces.needed_by(0.001) is None
 
 

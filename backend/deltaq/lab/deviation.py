@@ -17,7 +17,7 @@ from ..simulation.kernels.motion import STEP_UNDERFLOW
 from ..simulation.kernels.plan import CAPACITY, COUNT, STRIDE, Plan, make_plan
 from ..simulation.kernels.tangent import Pair, Progress, Trace, begin_pair, follow_stretches
 from ..simulation.march import SEEN
-from ..simulation.pieces import Pieces, Stretch
+from ..simulation.pieces import Pieces, BlindStretch
 from ..simulation.problem import Floats
 from ..simulation.run import Mesh
 
@@ -68,7 +68,7 @@ class Deviation:
             most = most if number < FEW else 1
         return STEP_UNDERFLOW, done
 
-    def _follow(self, first: int, count: int, bounds: Sequence[Bound]) -> tuple[int, int, tuple[Stretch, ...]]:
+    def _follow(self, first: int, count: int, bounds: Sequence[Bound]) -> tuple[int, int, tuple[BlindStretch, ...]]:
         """Some stretches by steps with bounds: the outcome, how many stretches are done, and what may be missed."""
         plan, end = self.pair.control.plan, (first + count) * self.stretch
         pieces = Pieces.whole(end).with_bounds(bounds)
@@ -81,7 +81,7 @@ class Deviation:
         reached = first + int(np.isfinite(self.trace.growths[first : first + count]).sum())
         return int(outcome), reached, self._missed()
 
-    def _missed(self) -> tuple[Stretch, ...]:
+    def _missed(self) -> tuple[BlindStretch, ...]:
         """Where the steps just taken were too long to see what the forces do."""
         plan, problem = self.pair.control.plan, self.audit.problem
         count, stride = int(plan.progress[COUNT]), int(plan.progress[STRIDE])

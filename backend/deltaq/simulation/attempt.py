@@ -17,7 +17,7 @@ from .integration import Flag
 from .kernels.motion import CANCELLED, LOCKED, MANY_EVENTS, NEWTON_FAILED, SINGULAR, STEP_LIMIT, STIFF, UNSETTLED
 from .method import Method
 from .outcome import CHATTERS, NO_DIRECTION, OUT_OF_REACH, SLIDES
-from .pieces import Pieces, Stretch
+from .pieces import Pieces, BlindStretch
 from .problem import Floats, Problem
 from .refinement import FINER, LAST, Refinement
 from .run import Run, Steps, run
@@ -50,8 +50,8 @@ class Attempt:
     chosen: Run
     runs: tuple[Run, ...]
     estimate: Estimate | None
-    blind: tuple[Stretch, ...] = ()
-    too_long: Stretch | None = None
+    blind: tuple[BlindStretch, ...] = ()
+    too_long: BlindStretch | None = None
     discarded: tuple[Run, ...] = ()
     is_shared: bool = False
 
@@ -219,7 +219,7 @@ class Integrator:
         factor = self.refinement.factor_of_answer(coarse.steps, fine.steps)
         return factor if self.modes is None else max(factor, BY_EVENTS)
 
-    def _blind(self, fine: Run, tolerance: float) -> tuple[Stretch, ...]:
+    def _blind(self, fine: Run, tolerance: float) -> tuple[BlindStretch, ...]:
         """Where a run was blind, stretch by stretch in its mode if it went on behind events."""
         return (
             self.audit.after(fine, tolerance) if self.modes is None else self.audit.after_each(fine.meshes, tolerance)
@@ -244,7 +244,7 @@ class Integrator:
             pieces = pieces.with_bounds([(each.start, each.end, each.step) for each in blind])
         return replace(found, blind=blind, discarded=discarded), pieces
 
-    def _missed(self, found: Attempt, tolerance: float) -> tuple[Stretch, ...]:
+    def _missed(self, found: Attempt, tolerance: float) -> tuple[BlindStretch, ...]:
         """Where the coarser run of a pair was blind, if it went on behind more or fewer events than the finer one.
 
         Its steps are longer, and what the finer run saw may lie between their ends.
@@ -289,7 +289,7 @@ class Integrator:
         modes = self.modes and replace(self.modes, model=model)
         return replace(self, problem=replace(self.problem, model=model), modes=modes)
 
-    def is_affordable(self, blind: tuple[Stretch, ...]) -> bool:
+    def is_affordable(self, blind: tuple[BlindStretch, ...]) -> bool:
         """Whether steps short enough for the blind stretches stay within the step limit."""
         return sum((each.end - each.start) / each.step for each in blind) < self.problem.step_limit
 

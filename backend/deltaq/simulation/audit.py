@@ -23,7 +23,7 @@ from .kernels.intervals import Ranges, TapeArrays
 from .kernels.sight import Boxes, Meshes, Room, Slopes, find_blind, find_unsure
 from .kernels.watch import NODES, NODES_OF_SERIES, places_of_watch
 from .method import Method, Series
-from .pieces import Pieces, Stretch
+from .pieces import Pieces, BlindStretch
 from .problem import Floats, Problem
 from .run import Mesh, Run
 from .sensitivity import sensitivities
@@ -112,11 +112,11 @@ class Audit:
                     return GuideJump(name, before)
         return None
 
-    def after(self, run: Run, tolerance: float) -> tuple[Stretch, ...]:
+    def after(self, run: Run, tolerance: float) -> tuple[BlindStretch, ...]:
         """The stretches of a recorded run on which it was blind, for a tolerance of the coordinates."""
         return self.after_each((Mesh(self.problem, 0.0, run.mesh_times, run.mesh_states, run.stride),), tolerance)
 
-    def after_each(self, meshes: Sequence[Mesh], tolerance: float) -> tuple[Stretch, ...]:
+    def after_each(self, meshes: Sequence[Mesh], tolerance: float) -> tuple[BlindStretch, ...]:
         """The same of a run that went on behind events, each mesh in its mode: a problem with other parameters."""
         meshes = [mesh for mesh in meshes if len(mesh.mesh_times) > 1]
         if not meshes:
@@ -126,14 +126,14 @@ class Audit:
         all_seeds = self.seeds(joined.rows(joined.groups), threshold, self._nearest(joined))
         seeds = np.split(all_seeds, np.searchsorted(joined.groups, joined.firsts[1:]))
         workspace, blind, spare = _make_workspace(self.tape_arrays.codes.size), _make_blind(), np.zeros((2, width))
-        found: list[Stretch] = []
+        found: list[BlindStretch] = []
         for mesh, path, own, parameters in zip(meshes, _paths(joined), seeds, joined.parameters, strict=True):
             ranges.inputs_low[width:] = ranges.inputs_high[width:] = parameters
             workspace.looked[0] = blind.found[0] = 0
             rules = Rules(self.limit, threshold, float(mesh.stride))
             inspect(self.tape_arrays, ranges, path, own, rules, workspace, spare, blind)
             columns = (column[: blind.found[0]].tolist() for column in (blind.starts, blind.ends, blind.steps))
-            found += [Stretch(*each) for each in zip(*columns, strict=True)]
+            found += [BlindStretch(*each) for each in zip(*columns, strict=True)]
         return tuple(found)
 
     def watcher(self, capacity: int) -> Watcher:

@@ -16,7 +16,7 @@ ROOM = 8.0  # units in the last place of a time
 
 
 @dataclass(frozen=True)
-class Stretch:
+class BlindStretch:
     """Times between which steps are too long to see what happens, and the step that would see."""
 
     start: float
@@ -70,14 +70,14 @@ class Pieces:
         """Whether it is one piece whose steps nothing bounds."""
         return len(self.largest) == 1 and self.largest[0] >= self.ends[0]
 
-    def needed_by(self, step: float) -> Stretch | None:
+    def needed_by(self, step: float) -> BlindStretch | None:
         """The first stretch that a fixed step passes over without seeing what happens there; None if it sees all."""
         starts = (0.0, *self.ends[:-1])
         short = (
             (a, b, size) for a, b, size in zip(starts, self.ends, self.largest, strict=True) if 0.0 < size < 0.5 * step
         )
         between = ((a, b, b - a) for (_, a), (b, _) in pairwise(self.jumps) if b - a < step)
-        return min((Stretch(*found) for found in (*short, *between)), key=lambda found: found.start, default=None)
+        return min((BlindStretch(*found) for found in (*short, *between)), key=lambda found: found.start, default=None)
 
     def with_bounds(self, bounds: Sequence[tuple[float, float, float]]) -> Pieces:
         """The pieces with further bounds (start, end, largest step) on some stretches."""

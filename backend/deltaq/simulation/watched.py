@@ -14,7 +14,7 @@ from .audit import Audit
 from .integration import Flag
 from .kernels.motion import EVENT, FINE, STEP_UNDERFLOW
 from .method import Method
-from .pieces import Pieces, Stretch
+from .pieces import Pieces, BlindStretch
 from .problem import Floats, Problem
 from .run import Mesh, Run, Steps
 from .run import run as run_once
@@ -94,7 +94,7 @@ def watched(
 
 def seen(
     problem: Problem, method: Method, times: Floats, steps: Steps, tolerance: float, cancelled: Flag, rounds: int
-) -> tuple[Run, tuple[Stretch, ...]]:
+) -> tuple[Run, tuple[BlindStretch, ...]]:
     """A recorded run with samples at `times`, shape (times,), and where it is still blind after so many rounds.
 
     Each round has shorter steps where the one before could have passed over what moves coordinates by more than the
