@@ -16,7 +16,7 @@ from deltaq.simulation.audit import Audit, largest_gap
 from deltaq.simulation.driver import simulate
 from deltaq.simulation.kernels.motion import FINE
 from deltaq.simulation.library import get_method, method_ids
-from deltaq.simulation.pieces import Pieces, BlindStretch
+from deltaq.simulation.pieces import BlindStretch, Pieces
 from deltaq.simulation.run import Mesh, Steps
 from deltaq.simulation.run import run as run_once
 from deltaq.simulation.service import problem_of, run

@@ -17,7 +17,7 @@ from ..simulation.kernels.motion import STEP_UNDERFLOW
 from ..simulation.kernels.plan import CAPACITY, COUNT, STRIDE, Plan, make_plan
 from ..simulation.kernels.tangent import Pair, Progress, Trace, begin_pair, follow_stretches
 from ..simulation.march import SEEN
-from ..simulation.pieces import Pieces, BlindStretch
+from ..simulation.pieces import BlindStretch, Pieces
 from ..simulation.problem import Floats
 from ..simulation.run import Mesh
 

@@ -15,6 +15,7 @@ import numpy as np
 
 from ..mechanics.library import load_scene
 from ..simulation.audit import Audit
+from ..simulation.audited import audited_run
 from ..simulation.derivatives import accelerations, derivatives
 from ..simulation.integration import explicit_weights, motion_of
 from ..simulation.kernels.motion import FINE, STEP_LIMIT
@@ -30,7 +31,6 @@ from ..simulation.run import Run, Steps
 from ..simulation.service import problem_of
 from ..simulation.stability import real_stability
 from ..simulation.stiffness import drive, spectrum
-from ..simulation.watched import seen
 from .deviation import Deviation, make_record
 
 METHOD, TOLERANCE = "dop853", 1e-12
@@ -100,7 +100,7 @@ def moved(problem: Problem, state: Floats) -> Problem:
 def solved(problem: Problem, times: Floats, tolerance: float = TOLERANCE) -> Run:
     """One accurate run with samples at `times`, shape (samples,), in seconds, up to where it may miss a force."""
     steps, flag = Steps(max(problem.t_end / 10, 1e-12), tolerance), np.zeros(1, dtype=np.int64)
-    found, blind = seen(problem, get_method(METHOD), times, steps, max(tolerance, SEEN), flag, ROUNDS)
+    found, blind = audited_run(problem, get_method(METHOD), times, steps, max(tolerance, SEEN), flag, ROUNDS)
     return found.before(min(each.start for each in blind)) if blind else found
 
 

@@ -12,11 +12,11 @@ from itertools import product
 
 import numpy as np
 
+from ..simulation.audited import audited_run
 from ..simulation.integration import Flag
 from ..simulation.library import get_method
 from ..simulation.problem import Floats, Problem
 from ..simulation.run import Steps
-from ..simulation.watched import seen
 from .engine import engine, while_wanted
 
 METHOD, TOLERANCE, PER_SECOND = "dormand-prince-54", 1e-6, 25
@@ -73,7 +73,7 @@ def first_flip(problem: Problem, cancelled: Flag) -> float:
     samples = max(2, round(PER_SECOND * problem.t_end) + 1)
     times = np.linspace(0.0, problem.t_end, samples)
     steps = Steps(problem.t_end / 10, TOLERANCE)
-    found, blind = seen(problem, get_method(METHOD), times, steps, TOLERANCE, cancelled, ROUNDS)
+    found, blind = audited_run(problem, get_method(METHOD), times, steps, TOLERANCE, cancelled, ROUNDS)
     if blind:
         return math.nan
     angles = [place for place, is_angle in enumerate(problem.angular) if is_angle]

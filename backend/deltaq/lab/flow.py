@@ -12,6 +12,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from ..simulation.audit import Audit
+from ..simulation.audited import audited_motion
 from ..simulation.ensemble import Ensemble, Sight, in_lanes
 from ..simulation.integration import Flag
 from ..simulation.library import get_method
@@ -19,7 +20,6 @@ from ..simulation.march import SEEN, Integers, Truths
 from ..simulation.problem import Floats, Problem
 from ..simulation.run import Steps
 from ..simulation.section import Surface
-from ..simulation.watched import watched
 from .interpolation import crossings
 
 TOLERANCE, FINE = 1e-12, 1e-16  # local: of a sweep, and of derivatives
@@ -123,7 +123,9 @@ class Flow:
         members = in_lanes(ensemble, times, steps, self.cancelled, sight=Sight(audit, SEEN))
         found = Traced(members.samples[:, :, : 2 * self.problem.degrees], members.outcomes, members.steps)
         for place in np.flatnonzero(members.blind).tolist():
-            again = watched(ensemble.member(place), taylor, times, steps, SEEN, PARTS * self.largest, self.cancelled)
+            again = audited_motion(
+                ensemble.member(place), taylor, times, steps, SEEN, PARTS * self.largest, self.cancelled
+            )
             found.states[place], found.outcomes[place], found.steps[place] = again.states, again.outcome, again.steps
         return found
 

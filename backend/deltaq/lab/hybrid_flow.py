@@ -14,6 +14,7 @@ import numpy as np
 
 from ..model.modes import Modes
 from ..simulation.audit import Audit
+from ..simulation.audited import AuditedParts
 from ..simulation.event import event_values
 from ..simulation.hybrid import run_on
 from ..simulation.kernels.motion import EVENT
@@ -22,7 +23,6 @@ from ..simulation.march import SEEN, Truths
 from ..simulation.problem import Floats
 from ..simulation.run import Run, Steps
 from ..simulation.section import Surface
-from ..simulation.watched import Watch
 from .flow import PARTS, TOLERANCE, Flow, Image, Passed, Traced
 from .hybrid_orbits import TOUCHING, crossings_of
 
@@ -126,5 +126,5 @@ class HybridFlow(Flow):
         found = run_on(own, self.modes, taylor, times, self.cancelled, steps)
         if not found.meshes or not Audit(found.meshes[0].problem, taylor).after_each(found.meshes, SEEN):
             return found
-        watch = Watch(SEEN, PARTS * self.largest)
-        return run_on(own, self.modes, taylor, watch.divided(times), self.cancelled, steps, watch)
+        parts = AuditedParts(SEEN, PARTS * self.largest)
+        return run_on(own, self.modes, taylor, parts.divided(times), self.cancelled, steps, parts)

@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 
 from ..mechanics.library import load_scene
 from ..simulation.audit import Audit
+from ..simulation.audited import audited_run
 from ..simulation.integration import Flag, explicit_weights, motion_of
 from ..simulation.kernels.monodromy import Flow, Found, Survey, make_newton_workspace, survey
 from ..simulation.kernels.motion import CANCELLED, FINE, STEP_UNDERFLOW
@@ -32,7 +33,6 @@ from ..simulation.problem import Problem as InitialValueProblem
 from ..simulation.run import Steps
 from ..simulation.service import problem_of
 from ..simulation.stability import real_stability
-from ..simulation.watched import seen
 from .engine import engine, while_wanted
 
 METHOD = "dop853"
@@ -208,7 +208,9 @@ def _look_again(problem: InitialValueProblem, cancelled: Flag, table: Survey, pl
         state = found.states[place] + table.nudge
         beside = replace(problem, values=tuple(state[:n].tolist()), rates=tuple(state[n:].tolist()), t_end=period)
         steps = Steps(float(row.steps[0]), TOLERANCE)
-        run, blind = seen(beside, method, np.array([0.0, period]), steps, UNSEEN * table.nudge, cancelled, ROUNDS)
+        run, blind = audited_run(
+            beside, method, np.array([0.0, period]), steps, UNSEEN * table.nudge, cancelled, ROUNDS
+        )
         needed = float(min(run.steps.pieces.largest)) if run.steps.pieces else np.inf
         if not blind and needed >= row.steps[0]:
             return

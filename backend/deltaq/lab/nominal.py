@@ -8,11 +8,11 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from ..simulation.audited import audited_run
 from ..simulation.library import get_method
 from ..simulation.march import SEEN, Integers
 from ..simulation.problem import Floats, Problem
 from ..simulation.run import Steps, run
-from ..simulation.watched import seen
 from .orbits import steps_of
 
 ROUNDS = 40  # of following it, each by shorter steps where the one before was blind
@@ -48,7 +48,9 @@ class NominalMotion:
         """
         times = np.linspace(0.0, problem.t_end, samples)
         steps = replace(steps_of(problem, is_driven=True), is_recorded=True)
-        found, blind = seen(problem, get_method("taylor"), times, steps, SEEN, np.zeros(1, dtype=np.int64), ROUNDS)
+        found, blind = audited_run(
+            problem, get_method("taylor"), times, steps, SEEN, np.zeros(1, dtype=np.int64), ROUNDS
+        )
         end = min([each.start for each in blind], default=float(found.result.reached))
         ends = found.mesh_times[found.mesh_times < end]
         known = times[: len(found.times)]

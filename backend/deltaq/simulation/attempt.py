@@ -17,7 +17,7 @@ from .integration import Flag
 from .kernels.motion import CANCELLED, LOCKED, MANY_EVENTS, NEWTON_FAILED, SINGULAR, STEP_LIMIT, STIFF, UNSETTLED
 from .method import Method
 from .outcome import CHATTERS, NO_DIRECTION, OUT_OF_REACH, SLIDES
-from .pieces import Pieces, BlindStretch
+from .pieces import BlindStretch, Pieces
 from .problem import Floats, Problem
 from .refinement import FINER, LAST, Refinement
 from .run import Run, Steps, run

@@ -23,7 +23,7 @@ from .kernels.intervals import Ranges, TapeArrays
 from .kernels.sight import Boxes, Meshes, Room, Slopes, find_blind, find_unsure
 from .kernels.watch import NODES, NODES_OF_SERIES, places_of_watch
 from .method import Method, Series
-from .pieces import Pieces, BlindStretch
+from .pieces import BlindStretch, Pieces
 from .problem import Floats, Problem
 from .run import Mesh, Run
 from .sensitivity import sensitivities

@@ -13,6 +13,7 @@ from functools import partial
 import numpy as np
 
 from ..model.modes import Modes
+from .audited import AuditedParts, mesh_of
 from .constraints import Reactions
 from .event import Event
 from .integration import Flag, Workspace
@@ -26,7 +27,6 @@ from .problem import Floats, Problem
 from .run import Mesh, Run, Steps, run
 from .sliding import SlidingError
 from .transitions import NoDirectionError, Transition, UnsettledError, begun, passed, with_offsets
-from .watched import Watch, mesh_of
 
 MOST = 5000  # events in one run
 AT_ONCE = 50  # events at the same time, by rounding
@@ -95,11 +95,11 @@ def run_on(
     times: Floats,
     cancelled: Flag,
     steps: Steps,
-    watch: Watch | None = None,
+    parts: AuditedParts | None = None,
 ) -> Run:
     """The run of a problem in modes, with samples at `times`, shape (samples,), as far as it comes.
 
-    With a `watch`, parts of it that may have missed a force are run again before it goes on behind them. One that is
+    With `parts`, those of it that may have missed a force are run again before it goes on behind them. One that is
     `shaken` has its rates moved by a little more than rounding does, at its start and behind each event: impacts part
     neighbours, and two runs that round alike would know nothing of it.
     """
@@ -111,7 +111,7 @@ def run_on(
     most_switches = _most_switches(steps, float(times[-1]))
     record = _Record(np.zeros((times.size, width)), np.zeros((times.size, count)), most_switches)
     record.out[0, : 2 * problem.degrees] = problem.state[: 2 * problem.degrees]
-    go = partial(run, workspace=Workspace()) if watch is None else watch.first_part
+    go = partial(run, workspace=Workspace()) if parts is None else parts.first_part
     while True:
         stretch, ahead = _problem(current, record.steps), _ahead(times, current.time)
         found = go(stretch, method, ahead, cancelled, _after(steps, current.time))

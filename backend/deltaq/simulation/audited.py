@@ -14,7 +14,7 @@ from .audit import Audit
 from .integration import Flag
 from .kernels.motion import EVENT, FINE, STEP_UNDERFLOW
 from .method import Method
-from .pieces import Pieces, BlindStretch
+from .pieces import BlindStretch, Pieces
 from .problem import Floats, Problem
 from .run import Mesh, Run, Steps
 from .run import run as run_once
@@ -23,7 +23,7 @@ ROUNDS = 12  # of a part, each with shorter steps where the one before was blind
 
 
 @dataclass(frozen=True)
-class Watched:
+class AuditedMotion:
     """The `states` (q, q̇) at the times, shape (times, 2n), NaN behind where the motion ended with an `outcome`."""
 
     states: Floats
@@ -32,7 +32,7 @@ class Watched:
 
 
 @dataclass(frozen=True)
-class Watch:
+class AuditedParts:
     """What moves coordinates by less than the `tolerance` may be missed; parts are about as long as `longest` seconds.
 
     A part goes up to a sample, so that times are `divided` beforehand.
@@ -50,7 +50,7 @@ class Watch:
     def first_part(self, problem: Problem, method: Method, times: Floats, cancelled: Flag, steps: Steps) -> Run:
         """A run up to the first of the times, shape (times,), that are so far, or to an event before."""
         count = max(int(np.searchsorted(times, times[0] + self.longest, side="right")), 2)
-        found, blind = seen(problem, method, times[:count], steps, self.tolerance, cancelled, ROUNDS)
+        found, blind = audited_run(problem, method, times[:count], steps, self.tolerance, cancelled, ROUNDS)
         return replace(found, result=found.result._replace(outcome=STEP_UNDERFLOW), event=None) if blind else found
 
 
@@ -65,9 +65,9 @@ def mesh_of(problem: Problem, found: Run) -> Mesh:
     return Mesh(problem, float(found.times[0]), times, states, found.stride)
 
 
-def watched(
+def audited_motion(
     problem: Problem, method: Method, times: Floats, steps: Steps, tolerance: float, longest: float, cancelled: Flag
-) -> Watched:
+) -> AuditedMotion:
     """The problem's motion at `times`, shape (times,), in parts up to the `longest`, in seconds.
 
     `steps` bounds them and their local errors; what moves coordinates by less than the `tolerance` may be missed.
@@ -82,17 +82,17 @@ def watched(
             n = problem.degrees
             own = replace(problem, values=tuple(state[:n].tolist()), rates=tuple(state[n:].tolist()), t_end=ends[k])
             whole = replace(steps, pieces=Pieces.whole(ends[k]))
-            found, blind = seen(own, method, ends[k - 1 : k + 1], whole, tolerance, cancelled, ROUNDS)
+            found, blind = audited_run(own, method, ends[k - 1 : k + 1], whole, tolerance, cancelled, ROUNDS)
             outcome = STEP_UNDERFLOW if blind else found.result.outcome
             taken += found.result.steps
             if outcome != FINE:
-                return Watched(states, outcome, taken)
+                return AuditedMotion(states, outcome, taken)
             state = found.states[-1, : 2 * n]
         states[place] = state
-    return Watched(states, FINE, taken)
+    return AuditedMotion(states, FINE, taken)
 
 
-def seen(
+def audited_run(
     problem: Problem, method: Method, times: Floats, steps: Steps, tolerance: float, cancelled: Flag, rounds: int
 ) -> tuple[Run, tuple[BlindStretch, ...]]:
     """A recorded run with samples at `times`, shape (times,), and where it is still blind after so many rounds.

@@ -8,18 +8,18 @@ from scipy.integrate import quad
 from scipy.special import erf
 from tests.simulation.scenes import oscillator
 
+from deltaq.simulation.audited import AuditedMotion, audited_motion
 from deltaq.simulation.kernels.motion import CANCELLED, FINE
 from deltaq.simulation.library import get_method
 from deltaq.simulation.run import Steps
 from deltaq.simulation.service import problem_of
-from deltaq.simulation.watched import Watched, watched
 
 
-def followed(force: str, times: np.ndarray, start: tuple[float, float], longest: float, flag: int = 0) -> Watched:
+def followed(force: str, times: np.ndarray, start: tuple[float, float], longest: float, flag: int = 0) -> AuditedMotion:
     """A mass of 1 kg on a line from x and ẋ under a force, by steps up to half a second."""
     problem = problem_of(oscillator(force, x=start[0], u=start[1]), float(times[-1]))
     cancelled = np.full(1, flag, dtype=np.int64)
-    return watched(problem, get_method("taylor"), times, Steps(0.5, 1e-13), 1e-11, longest, cancelled)
+    return audited_motion(problem, get_method("taylor"), times, Steps(0.5, 1e-13), 1e-11, longest, cancelled)
 
 
 @pytest.mark.parametrize("longest", [0.7, 30.0])
