@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from ..errors import Problem as Mistake
 from ..errors import SceneError
 from ..model.model import Model
-from .kernels.motion import SMALLEST_SHARE
+from .kernels.motion import SMALLEST_SCHUR_PIVOT
 from .problem import Floats, Moved, Problem
 from .rounding import short
 
@@ -69,7 +69,7 @@ def consistent_start(model: Model, parameters: Floats, values: Floats, rates: Fl
     if not np.isfinite(found).all() or held.is_off(found) or moved.max() > FARTHEST:
         raise _refused("constraint-not-met", places[worst], held.gaps(values, rates)[worst])
     shares, vectors = held.shares(found)
-    rank = int(np.count_nonzero(shares > SMALLEST_SHARE))
+    rank = int(np.count_nonzero(shares > SMALLEST_SCHUR_PIVOT))
     if held.rank_around(found) > rank:
         weak = int(np.argmax(np.abs(vectors[:, 0])))
         raise _refused("constraints-locked", places[weak], 0.0)
@@ -78,7 +78,7 @@ def consistent_start(model: Model, parameters: Floats, values: Floats, rates: Fl
     if (slips > CLOSE * held.rate_sizes(found, speeds)).any():
         worst = int(np.argmax(slips))
         raise _refused("constraint-rate-not-met", places[worst], slips[worst])
-    free = np.abs(vectors[:, shares <= SMALLEST_SHARE]).max(axis=1, initial=0.0)
+    free = np.abs(vectors[:, shares <= SMALLEST_SCHUR_PIVOT]).max(axis=1, initial=0.0)
     return Start(found, speeds, rank, tuple(int(k) for k in np.flatnonzero(free > SHARES)))
 
 
@@ -86,7 +86,7 @@ def idle_multipliers(problem: Problem) -> Floats:
     """λ that exert no force where a problem begins, Aᵀλ = 0, one for each constraint too many: shape (idle, m)."""
     held, values = _Held(problem.model, np.array(problem.parameters)), np.array(problem.values)
     shares, vectors = held.shares(values)
-    return np.asarray((vectors[:, shares <= SMALLEST_SHARE] * held.scales(values)[:, None]).T)
+    return np.asarray((vectors[:, shares <= SMALLEST_SCHUR_PIVOT] * held.scales(values)[:, None]).T)
 
 
 def unmet(problem: Problem) -> SceneError:
@@ -202,7 +202,7 @@ class _Held:
             near = q + AROUND * np.maximum(1.0, np.abs(q)) * source.uniform(-1.0, 1.0, q.size)
             found = self.nearest(near)
             if np.isfinite(found).all():
-                ranks.append(int(np.count_nonzero(self.shares(found)[0] > SMALLEST_SHARE)))
+                ranks.append(int(np.count_nonzero(self.shares(found)[0] > SMALLEST_SCHUR_PIVOT)))
         return max(ranks, default=0)
 
 
@@ -226,6 +226,6 @@ def _answer(mass: Floats, rows: Floats, right: Floats) -> Floats:
     share = rows @ responses
     inverse = _scales(share)
     values, vectors = np.linalg.eigh(share * inverse * inverse[:, None])
-    kept = values > SMALLEST_SHARE  # those that count as independent
+    kept = values > SMALLEST_SCHUR_PIVOT  # those that count as independent
     inside = (vectors[:, kept].T @ (inverse * right)) / values[kept]
     return np.asarray(responses @ (inverse * (vectors[:, kept] @ inside)))

@@ -10,7 +10,7 @@ from __future__ import annotations
 import numpy as np
 
 from ..model.linear_system import linear_system
-from .kernels.motion import SMALLEST_SHARE
+from .kernels.motion import SMALLEST_SCHUR_PIVOT
 from .problem import Floats, Problem
 
 LOOKS = 25  # samples at which it is looked at; the middle one counts, as it grows without bound towards a fork
@@ -42,6 +42,8 @@ def _moved(mass: Floats, rows: Floats, terms: Floats) -> Floats:
     share = rows @ responses
     own = np.sqrt(np.maximum(np.diagonal(share, axis1=1, axis2=2), 0.0))
     scales = np.divide(1.0, own, out=np.zeros_like(own), where=own > 0.0)
-    inverse = np.linalg.pinv(share * scales[:, :, None] * scales[:, None, :], rcond=SMALLEST_SHARE, hermitian=True)
+    inverse = np.linalg.pinv(
+        share * scales[:, :, None] * scales[:, None, :], rcond=SMALLEST_SCHUR_PIVOT, hermitian=True
+    )
     shifts = responses @ (inverse * scales[:, :, None] * scales[:, None, :])
     return np.asarray(np.einsum("snk,sk->sn", np.abs(shifts), terms))

@@ -10,7 +10,7 @@ import numpy as np
 
 from ..model.linear_system import LinearSystem
 from ..model.modes import Modes
-from .kernels.motion import SMALLEST_SHARE
+from .kernels.motion import SMALLEST_SCHUR_PIVOT
 from .once import once
 from .problem import Floats, Problem
 
@@ -125,7 +125,7 @@ class ModeState:
         scale = np.abs(self.mass).max() / (np.abs(rows).max() or 1.0)
         matrix = np.block([[self.mass, scale * rows.T], [scale * rows, np.zeros((count, count))]])
         right = np.concatenate([forces, np.zeros(count) if bends is None else scale * bends])
-        nothing = None if self.problem.rank == count else SMALLEST_SHARE
+        nothing = None if self.problem.rank == count else SMALLEST_SCHUR_PIVOT
         return np.asarray(np.linalg.lstsq(matrix, right, rcond=nothing)[0][: len(self.q)])
 
     @once

@@ -76,7 +76,7 @@ def scale(own: float) -> float:
 
 @inline
 def respond(system: System) -> int:
-    """M factored, q̈ = M⁻¹f without reactions into `bends`, AM⁻¹ and the scaled AM⁻¹Aᵀ; returns the outcome."""
+    """M factored, q̈ = M⁻¹f without reactions into `accelerations`, AM⁻¹ and the scaled AM⁻¹Aᵀ; returns the outcome."""
     n, m, outputs = system.head[DEGREES], system.head[COUNT], system.outputs
     ratio, force, rows = factor_mass(system), n * (n + 1) // 2, place_of_rows(system)
     if not ratio > SMALLEST_PIVOT:
@@ -84,7 +84,7 @@ def respond(system: System) -> int:
     system.conditioning[0] = min(system.conditioning[0], ratio)
     solve(outputs, n)
     for i in range(n):
-        system.bends[i] = outputs[force + i]
+        system.accelerations[i] = outputs[force + i]
     for k in range(m):
         for i in range(n):
             outputs[force + i] = outputs[rows + k * n + i]
@@ -99,20 +99,20 @@ def respond(system: System) -> int:
 
 
 @inline
-def weigh(system: System, count: int, share: Floats) -> None:
-    """AM⁻¹Aᵀ of the first `count` constraints, scaled, into `share`, shape (≥ count²,), by rows."""
+def schur_complement(system: System, count: int, matrix: Floats) -> None:
+    """AM⁻¹Aᵀ of the first `count` constraints, scaled, into `matrix`, shape (≥ count²,), by rows."""
     n, rows = system.head[DEGREES], place_of_rows(system)
     for k in range(count):
         for j in range(k + 1):
             total = 0.0
             for i in range(n):
                 total += system.outputs[rows + k * n + i] * system.responses[j * n + i]
-            share[k * count + j] = share[j * count + k] = total * system.scales[k] * system.scales[j]
+            matrix[k * count + j] = matrix[j * count + k] = total * system.scales[k] * system.scales[j]
 
 
 @inline
 def solve_accelerations(system: System) -> int:
-    """q̈ and λ at the state that stands in `inputs`, into `bends` and `multipliers`; returns the outcome.
+    """q̈ and λ at the state that stands in `inputs`, into `accelerations` and `multipliers`; returns the outcome.
 
     LOCKED if the constraints are not as many independent ones as at the start.
     """
@@ -120,20 +120,20 @@ def solve_accelerations(system: System) -> int:
     outcome = respond(system)
     if outcome != FINE:
         return outcome
-    weigh(system, m, system.share)
-    rank, smallest = factor_ranked(system.share, system.order, m)
+    schur_complement(system, m, system.schur)
+    rank, smallest = factor_ranked(system.schur, system.order, m)
     if rank != system.head[RANK]:
         return NOT_FINITE if rank < 0 else LOCKED
     system.conditioning[0] = min(system.conditioning[0], smallest)
     for k in range(m):
         total = system.outputs[rows + m * n + k]
         for i in range(n):
-            total -= system.outputs[rows + k * n + i] * system.bends[i]
+            total -= system.outputs[rows + k * n + i] * system.accelerations[i]
         system.multipliers[k] = total
-    solve_ranked(system.share, system.order, m, rank, system.scales, system.multipliers)
+    solve_ranked(system.schur, system.order, m, rank, system.scales, system.multipliers)
     for k in range(m):
         for i in range(n):
-            system.bends[i] += system.multipliers[k] * system.responses[k * n + i]
+            system.accelerations[i] += system.multipliers[k] * system.responses[k * n + i]
     return FINE
 
 
@@ -151,7 +151,7 @@ def power_of(system: System) -> float:
     place, drives = n * (n + 1) // 2 + n, place_of_rows(system) + m * n + m
     power = system.outputs[place]
     for i in range(n):
-        power += system.outputs[place + 1 + i] * system.bends[i]
+        power += system.outputs[place + 1 + i] * system.accelerations[i]
     for k in range(m):
         power -= system.multipliers[k] * system.outputs[drives + k]
     return float(power)
@@ -171,7 +171,7 @@ def as_free(system: System, out: Floats) -> None:
         for j in range(i):
             out[row + j] = 0.0
         out[row + i] = good
-        out[n * (n + 1) // 2 + i] = system.bends[i]
+        out[n * (n + 1) // 2 + i] = system.accelerations[i]
     if system.head[POWERED]:
         place = n * (n + 1) // 2 + n
         out[place] = power_of(system)

@@ -26,9 +26,9 @@ class ImplicitWorkspace(NamedTuple):
 
     p: Floats
     new_p: Floats
-    compensation: Floats  # of q, then p, then the work
+    compensation: Floats
     new_compensation: Floats
-    rate: Floats  # ṗ at the start
+    rate: Floats
     ends: Ends
     stages: Stages
     error: Floats

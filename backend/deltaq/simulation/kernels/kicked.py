@@ -12,7 +12,7 @@ import numpy as np
 from .compiler import inline
 from .kicks import rows_before
 from .linear import substitute
-from .motion import SMALLEST_SHARE, Floats, Motion
+from .motion import SMALLEST_SCHUR_PIVOT, Floats, Motion
 from .pointer import call
 from .stages import ImplicitWeights, Stages, Start
 from .system import System
@@ -102,7 +102,7 @@ def correct_kicked(kicked: Kicked) -> bool:
     """
     call(kicked.address, kicked.data, kicked.told, kicked.given)
     signs = kicked.signs
-    if not (signs[1] > 0.0 and signs[0] > SMALLEST_SHARE * signs[1]):
+    if not (signs[1] > 0.0 and signs[0] > SMALLEST_SCHUR_PIVOT * signs[1]):
         return False
     for d in range(kicked.momenta.size):
         kicked.momenta[d] = kicked.kicked[d]

@@ -41,14 +41,14 @@ from .system import (
 class Kicks(NamedTuple):
     """The arrays of k constraints kept by kicks, with s stages for n coordinates; k = 0 where nothing is.
 
-    `p`, shape (n,), are the momenta before the kick; `responses`, shape (k, s n), the rows of W⁻¹A(q₀)ᵀ, `share`, shape
+    `p`, shape (n,), are the momenta before the kick; `responses`, shape (k, s n), the rows of W⁻¹A(q₀)ᵀ, `schur`, shape
     (k²,), is h A(q₁) Σ bᵢ times them, scaled by `scales` and factored, `order` that of its rows, `right` a right side,
     shape (k,) each, and `rank`, shape (1,), how many of them are independent.
     """
 
     p: Floats
     responses: Floats
-    share: Floats
+    schur: Floats
     order: Indices
     scales: Floats
     right: Floats
@@ -108,12 +108,12 @@ def weigh_kicks(system: System, weights: ImplicitWeights, h: float, n: int, kick
             for i in range(weights.b.size):
                 for d in range(n):
                     total += weights.b[i] * system.outputs[rows + k * n + d] * kicks.responses[j, i * n + d]
-            kicks.share[k * count + j] = h * total
+            kicks.schur[k * count + j] = h * total
     for k in range(count):
-        kicks.scales[k] = scale(kicks.share[k * count + k])
+        kicks.scales[k] = scale(kicks.schur[k * count + k])
     for k in range(count):
         for j in range(count):
-            kicks.share[k * count + j] *= kicks.scales[k] * kicks.scales[j]
+            kicks.schur[k * count + j] *= kicks.scales[k] * kicks.scales[j]
 
 
 @inline
@@ -131,7 +131,7 @@ def prepare_kicks(
     place_new(system, weights, t, h, start, stages)
     call(system.head[MOTION], system.head[MOTION_DATA], system.outputs, system.inputs)
     weigh_kicks(system, weights, h, n, kicks)
-    rank, _ = factor_ranked(kicks.share, kicks.order, kicks.right.size)
+    rank, _ = factor_ranked(kicks.schur, kicks.order, kicks.right.size)
     kicks.rank[0] = rank
     return FINE if rank >= 0 else NOT_FINITE
 
@@ -151,7 +151,7 @@ def kick(
             for d in range(n):
                 moved += weights.b[i] * system.outputs[rows + k * n + d] * stages.residual[i * n + d]
         kicks.right[k] = system.gaps[k] + h * moved
-    solve_ranked(kicks.share, kicks.order, count, kicks.rank[0], kicks.scales, kicks.right)
+    solve_ranked(kicks.schur, kicks.order, count, kicks.rank[0], kicks.scales, kicks.right)
     for k in range(count):
         for d in range(n):
             start.p[d] -= kicks.right[k] * system.before[k * n + d]

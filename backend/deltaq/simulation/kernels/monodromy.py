@@ -30,13 +30,13 @@ NOT_PERIODIC = 100
 class Survey(NamedTuple):
     """What is varied: inputs number `first` and `second` of the motion, and the period of each point.
 
-    Neighbours are a `nudge` away.
-    `values` has shape (points, 2), `periods` and `steps`, which none is longer than, shape (points,), in seconds.
+    Neighbours are a `nudge` away. `values` has shape (points, 2), `periods` and `steps`, which none is longer than,
+    shape (points,), in seconds.
     """
 
     first: int
     second: int
-    values: Floats  # shape (points, 2)
+    values: Floats
     periods: Floats
     steps: Floats
     nudge: float
@@ -48,8 +48,8 @@ class Found(NamedTuple):
     `states` has shape (points, 2n), `matrices` shape (points, 2n, 2n), `outcomes` shape (points,).
     """
 
-    states: Floats  # shape (points, 2n)
-    matrices: Floats  # shape (points, 2n, 2n)
+    states: Floats
+    matrices: Floats
     outcomes: NDArray[np.int64]
 
 
@@ -62,10 +62,10 @@ class Flow(NamedTuple):
     motion: Motion
     weights: Weights
     control: Control
-    watch: Watch  # for being cancelled only
+    watch: Watch
     workspace: Workspace
     times: Floats
-    out: Floats  # shape (2, 2n)
+    out: Floats
     nudge: float
 
 
@@ -75,7 +75,7 @@ class NewtonWorkspace(NamedTuple):
     `system` has shape (2n, 2n), `gap` (the right side, then Δy) and `pivots` shape (2n,).
     """
 
-    system: Floats  # shape (2n, 2n)
+    system: Floats
     gap: Floats
     pivots: NDArray[np.int64]
 

@@ -20,7 +20,7 @@ MANY_EVENTS, UNSETTLED = 12, 13  # of runs that go on behind events
 ROUNDING = 2.3e-16  # of a number in double precision, relative to it
 # A pivot smaller than this part of what it is left of is rounding error: M has no inverse there.
 SMALLEST_PIVOT = 1e-14
-SMALLEST_SHARE = 1e-11  # of a scaled pivot of AM⁻¹Aᵀ; a constraint that has less depends on the others
+SMALLEST_SCHUR_PIVOT = 1e-11  # of a scaled pivot of AM⁻¹Aᵀ; a constraint that has less depends on the others
 
 
 class Motion(NamedTuple):
@@ -53,7 +53,7 @@ class Motion(NamedTuple):
 @inline
 def has_signs(out: Floats, signs: int) -> bool:
     """Whether the signs of a solution in symbols, at that place of `out`, shape (≥ signs + 3,), say that it is one."""
-    return bool(out[signs] > SMALLEST_PIVOT and out[signs + 1] > SMALLEST_SHARE and out[signs + 2] > 0.0)
+    return bool(out[signs] > SMALLEST_PIVOT and out[signs + 1] > SMALLEST_SCHUR_PIVOT and out[signs + 2] > 0.0)
 
 
 @inline

@@ -9,7 +9,7 @@ from __future__ import annotations
 import numpy as np
 
 from .compiler import inline, kernel, subroutine
-from .constraints import accelerate, power_of, weigh
+from .constraints import accelerate, power_of, schur_complement
 from .motion import FINE, LOCKED, NEWTON_FAILED, NOT_FINITE, Floats
 from .pointer import call, prevent_vectorization
 from .ranked import determinant, factor_ranked, solve_ranked
@@ -49,7 +49,7 @@ def correct(system: System, first: int, at: int, h: float) -> tuple[float, float
     """Takes the `right` multiples of the responses from q (at = 0) or q̇ (at = n); the largest part of them that is.
 
     Once relative to each or to how far it moves in h seconds, once relative to it or 1. `first` is one behind the last
-    constraint that has a share.
+    constraint that has a part in it.
     """
     n, relative, absolute = system.head[DEGREES], 0.0, 0.0
     for i in range(n):
@@ -57,7 +57,7 @@ def correct(system: System, first: int, at: int, h: float) -> tuple[float, float
         for k in range(first):
             change += system.right[k] * system.responses[k * n + i]
         system.inputs[at + i] -= change
-        rate = system.inputs[n + i] if at == 0 else system.bends[i]
+        rate = system.inputs[n + i] if at == 0 else system.accelerations[i]
         size, change = abs(system.inputs[at + i]), abs(change)
         reach = max(size, abs(h * rate))
         if change != 0.0:
@@ -76,12 +76,12 @@ def project(system: System, h: float) -> int:
     """
     prevent_vectorization()
     n, m, holonomic = system.head[DEGREES], system.head[COUNT], system.head[HOLONOMIC]
-    rank, of_gaps, gap_order = system.head[RANK], system.share, system.order
+    rank, gap_schur, gap_order = system.head[RANK], system.schur, system.order
     gap_rank = rank
     if 0 < holonomic < m:
-        of_gaps, gap_order = system.of_gaps, system.gap_order
-        weigh(system, holonomic, of_gaps)
-        gap_rank, _ = factor_ranked(of_gaps, gap_order, holonomic)
+        gap_schur, gap_order = system.gap_schur, system.gap_order
+        schur_complement(system, holonomic, gap_schur)
+        gap_rank, _ = factor_ranked(gap_schur, gap_order, holonomic)
     before, first, is_settled = np.inf, 0.0, False
     for tries in range(MOST_CORRECTIONS):
         read_gaps(system)
@@ -89,11 +89,11 @@ def project(system: System, h: float) -> int:
         if holonomic > 0:
             for k in range(holonomic):
                 system.right[k] = system.gaps[k]
-            solve_ranked(of_gaps, gap_order, holonomic, gap_rank, system.scales, system.right)
+            solve_ranked(gap_schur, gap_order, holonomic, gap_rank, system.scales, system.right)
             relative, absolute = correct(system, holonomic, 0, h)
         for k in range(m):
             system.right[k] = system.gaps[holonomic + k]
-        solve_ranked(system.share, system.order, m, rank, system.scales, system.right)
+        solve_ranked(system.schur, system.order, m, rank, system.scales, system.right)
         of_rates, at_least = correct(system, m, n, h)
         relative, absolute = max(relative, of_rates), max(absolute, at_least)
         if not absolute < np.inf:
@@ -233,7 +233,7 @@ def finish_step(system: System, t: float, h: float, ends: Ends) -> int:
     for d in range(2 * n):
         new[d] = system.inputs[d]
     for d in range(n):
-        new_derivative[d], new_derivative[n + d] = new[n + d], system.bends[d]
+        new_derivative[d], new_derivative[n + d] = new[n + d], system.accelerations[d]
     if system.head[POWERED]:
         new_derivative[2 * n] = power_of(system)
     if not turning(system, system.responses) > 0.0:

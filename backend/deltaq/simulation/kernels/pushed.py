@@ -11,7 +11,7 @@ import numpy as np
 
 from .compiler import inline, subroutine
 from .linear import Indices
-from .motion import FINE, SMALLEST_PIVOT, SMALLEST_SHARE, Floats, Motion
+from .motion import FINE, SMALLEST_PIVOT, SMALLEST_SCHUR_PIVOT, Floats, Motion
 from .pointer import call, prevent_vectorization
 from .projection import CLOSE, STALLED
 from .rattle import ENOUGH, SLIGHT, Held, advance_held, compensate, guess, look_closely
@@ -78,7 +78,7 @@ def look_ahead(pushed: Pushed, conditioning: Floats) -> bool:
     """
     call(pushed.ends, pushed.ends_data, pushed.told, pushed.given)
     signs = pushed.signs
-    if not (signs[1] > SMALLEST_PIVOT and signs[2] > SMALLEST_SHARE):
+    if not (signs[1] > SMALLEST_PIVOT and signs[2] > SMALLEST_SCHUR_PIVOT):
         return False
     conditioning[0] = min(conditioning[0], signs[1], signs[2])
     return True

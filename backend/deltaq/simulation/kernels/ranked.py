@@ -10,7 +10,7 @@ import numpy as np
 
 from .compiler import inline
 from .linear import Indices
-from .motion import SMALLEST_SHARE, Floats
+from .motion import SMALLEST_SCHUR_PIVOT, Floats
 
 
 @inline
@@ -23,50 +23,50 @@ def exchange(a: Floats, count: int, k: int, j: int) -> None:
 
 
 @inline
-def largest_pivot(share: Floats, count: int, k: int) -> int:
-    """The row from k on with the largest diagonal entry; −1 if one is not finite. `share` has shape (≥ count²,)."""
+def largest_pivot(matrix: Floats, count: int, k: int) -> int:
+    """The row from k on with the largest diagonal entry; −1 if one is not finite. `matrix` has shape (≥ count²,)."""
     best = k
     for i in range(k, count):
-        if not abs(share[i * count + i]) < np.inf:
+        if not abs(matrix[i * count + i]) < np.inf:
             return -1
-        if share[i * count + i] > share[best * count + best]:
+        if matrix[i * count + i] > matrix[best * count + best]:
             best = i
     return best
 
 
 @inline
-def factor_ranked(share: Floats, order: Indices, count: int) -> tuple[int, float]:
-    """L D U of a matrix with unit diagonal in place: its rank, and its smallest pivot above SMALLEST_SHARE.
+def factor_ranked(matrix: Floats, order: Indices, count: int) -> tuple[int, float]:
+    """L D U of a matrix with unit diagonal in place: its rank, and its smallest pivot above SMALLEST_SCHUR_PIVOT.
 
-    L and U have diagonals of ones; of a symmetric matrix U is Lᵀ. `share`, shape (≥ count²,), holds it by rows,
+    L and U have diagonals of ones; of a symmetric matrix U is Lᵀ. `matrix`, shape (≥ count²,), holds it by rows,
     `order`, shape (≥ count,), receives the order of its rows. The rank is −1 if a number is not finite.
     """
     smallest = 1.0
     for k in range(count):
         order[k] = k
     for k in range(count):
-        best = largest_pivot(share, count, k)
+        best = largest_pivot(matrix, count, k)
         if best < 0:
             return -1, np.nan
         if best != k:
             order[k], order[best] = order[best], order[k]
-            exchange(share, count, k, best)
-        pivot = share[k * count + k]
-        if not pivot > SMALLEST_SHARE:
+            exchange(matrix, count, k, best)
+        pivot = matrix[k * count + k]
+        if not pivot > SMALLEST_SCHUR_PIVOT:
             return k, smallest
         smallest = min(smallest, pivot)
         for i in range(k + 1, count):
-            part = share[i * count + k] / pivot
+            part = matrix[i * count + k] / pivot
             for j in range(k + 1, count):
-                share[i * count + j] -= part * share[k * count + j]
-            share[i * count + k] = part
+                matrix[i * count + j] -= part * matrix[k * count + j]
+            matrix[i * count + k] = part
         for j in range(k + 1, count):
-            share[k * count + j] /= pivot
+            matrix[k * count + j] /= pivot
     return count, smallest
 
 
 @inline
-def solve_ranked(share: Floats, order: Indices, count: int, rank: int, scales: Floats, right: Floats) -> None:
+def solve_ranked(matrix: Floats, order: Indices, count: int, rank: int, scales: Floats, right: Floats) -> None:
     """Solves with the factors for `right`, shape (≥ count,), which becomes λ; 0 for what depends on the others.
 
     Constraints that depend on one another have no unique multipliers; the motion is the same with any of them.
@@ -76,12 +76,12 @@ def solve_ranked(share: Floats, order: Indices, count: int, rank: int, scales: F
     for k in range(rank):
         total = right[order[k]]
         for j in range(k):
-            total -= share[k * count + j] * right[order[j]]
+            total -= matrix[k * count + j] * right[order[j]]
         right[order[k]] = total
     for k in range(rank - 1, -1, -1):
-        total = right[order[k]] / share[k * count + k]
+        total = right[order[k]] / matrix[k * count + k]
         for j in range(k + 1, rank):
-            total -= share[k * count + j] * right[order[j]]
+            total -= matrix[k * count + j] * right[order[j]]
         right[order[k]] = total
     for k in range(rank, count):
         right[order[k]] = 0.0

@@ -86,18 +86,18 @@ def solve_mass(factors: Floats, n: int, right: Floats, count: int) -> None:
 @inline
 def decompose(system: System) -> int:
     """A M⁻¹Bᵀ scaled and factored, with A from the outputs and the rows of BM⁻¹ from the responses; the outcome."""
-    n, m, rows, share = system.head[DEGREES], system.head[COUNT], place_of_rows(system), system.share
+    n, m, rows, schur = system.head[DEGREES], system.head[COUNT], place_of_rows(system), system.schur
     for k in range(m):
         for j in range(m):
             total = 0.0
             for i in range(n):
                 total += system.outputs[rows + k * n + i] * system.responses[j * n + i]
-            share[k * m + j] = total
-        system.scales[k] = scale(share[k * m + k])
+            schur[k * m + j] = total
+        system.scales[k] = scale(schur[k * m + k])
     for k in range(m):
         for j in range(m):
-            share[k * m + j] *= system.scales[k] * system.scales[j]
-    rank, smallest = factor_ranked(share, system.order, m)
+            schur[k * m + j] *= system.scales[k] * system.scales[j]
+    rank, smallest = factor_ranked(schur, system.order, m)
     if rank != system.head[RANK]:
         return NOT_FINITE if rank < 0 else LOCKED
     system.conditioning[0] = min(system.conditioning[0], smallest)
@@ -116,10 +116,10 @@ def look(system: System, factors: Floats, begins: int) -> int:
     call(system.head[MOTION], system.head[MOTION_DATA], system.outputs, system.inputs)
     if begins != 0:
         for i in range(n):
-            system.bends[i] = system.outputs[n * (n + 1) // 2 + i]
+            system.accelerations[i] = system.outputs[n * (n + 1) // 2 + i]
         for k in range(m * n):
             system.responses[k] = system.outputs[rows + k]
-        solve_mass(factors, n, system.bends, 1)
+        solve_mass(factors, n, system.accelerations, 1)
         solve_mass(factors, n, system.responses, m)
     return decompose(system)
 
@@ -173,7 +173,7 @@ def meet(held: Held, t: float, h: float, workspace: SplitWorkspace) -> tuple[int
         read_gaps(system)
         for k in range(m):
             system.right[k] = system.gaps[k] / h
-        solve_ranked(system.share, system.order, m, system.head[RANK], system.scales, system.right)
+        solve_ranked(system.schur, system.order, m, system.head[RANK], system.scales, system.right)
         for k in range(m):
             held.pushes[0, k] += system.right[k]
         before = part if tries > 0 else np.inf
@@ -212,11 +212,11 @@ def settle_rates(system: System, impulse: float, workspace: SplitWorkspace) -> N
     for k in range(m):
         slip = system.outputs[rows + m * n + m + k]
         for i in range(n):
-            slip += system.outputs[rows + k * n + i] * (workspace.ends.new[n + i] + impulse * system.bends[i])
+            slip += system.outputs[rows + k * n + i] * (workspace.ends.new[n + i] + impulse * system.accelerations[i])
         system.right[k] = slip
-    solve_ranked(system.share, system.order, m, system.head[RANK], system.scales, system.right)
+    solve_ranked(system.schur, system.order, m, system.head[RANK], system.scales, system.right)
     for i in range(n):
-        change = impulse * system.bends[i]
+        change = impulse * system.accelerations[i]
         for k in range(m):
             change -= system.right[k] * system.responses[k * n + i]
         add_compensated(n + i, change, workspace)
@@ -248,7 +248,7 @@ def advance_held(
         keep_rows(system)
         held.remembered[0], system.head[IS_UNDER_WAY] = 0, 1
     for d in range(n):
-        workspace.acceleration[d] = held.before * h * system.bends[d] + workspace.compensation[n + d]
+        workspace.acceleration[d] = held.before * h * system.accelerations[d] + workspace.compensation[n + d]
     guess(held)
     if outcome == FINE:
         outcome, more = meet(held, t, h, workspace)

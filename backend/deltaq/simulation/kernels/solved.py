@@ -35,26 +35,38 @@ from .system import (
 MOST_CORRECTIONS, SURE = 8, 2  # Newton's corrections; behind so many, one that is small in itself is the last
 # Of a scaled pivot of AM⁻¹Aᵀ, and of the square of a row of A, of the largest: with less, rounding may count in rates.
 INDEPENDENT, SMALL_ROW = 1e-6, 1e-4
+NEGLIGIBLE, SMALL, LARGE = 0, 1, 2  # ranks of a correction
 CLOSER = 2.3e-11  # ε^⅔: a second correction by the same A that is this small leaves its power 3/2
 
 
 @inline
-def take_projected(system: System, h: float, rates: Floats) -> tuple[bool, bool]:
-    """What was projected becomes the state in `inputs`: whether hardly anything changed.
+def rank_change(value: float, change: float, part: float, reach: float) -> int:
+    """NEGLIGIBLE up to a `part` of the value or of its `reach`, SMALL up to that part of 1, else LARGE, NaN as well."""
+    size, change = abs(value), abs(change)
+    if change <= part * max(size, reach):
+        return NEGLIGIBLE
+    return SMALL if change <= part * max(1.0, size) else LARGE
 
-    Once relative to each coordinate or rate, or to how far it moves in h seconds, once relative to it or 1. `rates` are
-    d/dt of (q, q̇) nearby, shape (≥ 2n,).
+
+@inline
+def is_settled(rank: int, tries: int) -> bool:
+    """Whether a correction whose largest change has this rank is the last one, `tries` having come before."""
+    return rank == NEGLIGIBLE or (rank == SMALL and tries >= SURE)
+
+
+@inline
+def take_projected(system: System, h: float, rates: Floats) -> int:
+    """What was projected becomes the state in `inputs`; the rank of the largest change, for a part CLOSE.
+
+    A coordinate or rate reaches as far as it moves in h seconds. `rates` are d/dt of (q, q̇) nearby, shape (≥ 2n,).
     """
-    is_close, is_small = True, True
+    rank = NEGLIGIBLE
     for i in range(2 * system.head[DEGREES]):
         value = system.projected[i]
-        size, change = abs(value), abs(system.inputs[i] - value)
+        change = system.inputs[i] - value
         system.inputs[i] = value
-        if not change <= CLOSE * max(size, abs(h * rates[i])):
-            is_close = False
-            if not change <= CLOSE * max(1.0, size):
-                is_small = False
-    return is_close, is_small
+        rank = max(rank, rank_change(value, change, CLOSE, abs(h * rates[i])))
+    return rank
 
 
 @inline
@@ -69,29 +81,24 @@ def project_solved(system: System, h: float, rates: Floats) -> bool:
         call(system.head[PROJECTED], system.head[PROJECTED_DATA], system.projected, system.inputs)
         if not has_signs(system.signs, 1):
             return False
-        is_close, is_small = take_projected(system, h, rates)
-        if is_close or (tries >= SURE and is_small):
+        if is_settled(take_projected(system, h, rates), tries):
             return bool(system.signs[0] > 0.0)
     return False
 
 
 @inline
-def take_placed(system: System, part: float, h: float, rates: Floats) -> tuple[bool, bool]:
-    """Takes from q in `inputs` what it is off by: whether that was no more than a `part`, in the measures as above.
+def take_placed(system: System, part: float, h: float, rates: Floats) -> int:
+    """Takes from q in `inputs` what it is off by; the rank of the largest change, for this `part`.
 
     `rates` are d/dt of (q, q̇) nearby, shape (≥ 2n,).
     """
-    is_close, is_small = True, True
+    rank = NEGLIGIBLE
     for i in range(system.head[DEGREES]):
         change = system.placed[i]
         value = system.inputs[i] - change
         system.inputs[i] = value
-        size, change = abs(value), abs(change)
-        if not change <= part * max(size, abs(h * rates[i])):
-            is_close = False
-            if not change <= part * max(1.0, size):
-                is_small = False
-    return is_close, is_small
+        rank = max(rank, rank_change(value, change, part, abs(h * rates[i])))
+    return rank
 
 
 @inline
@@ -114,12 +121,10 @@ def place_solved(system: System, h: float, rates: Floats) -> bool:
     """
     for tries in range(MOST_CORRECTIONS):
         call(system.head[PLACED], system.head[PLACED_DATA], system.placed, system.inputs)
-        is_close, is_small = take_placed(system, CLOSE, h, rates)
-        if is_close or (tries >= SURE and is_small):
+        if is_settled(take_placed(system, CLOSE, h, rates), tries):
             return True
         place_again(system)
-        is_close, is_small = take_placed(system, CLOSER, h, rates)
-        if is_close or (tries >= SURE and is_small):
+        if is_settled(take_placed(system, CLOSER, h, rates), tries):
             return True
     return False
 
@@ -177,9 +182,10 @@ def finish_landed(system: System, t: float, h: float, ends: Ends) -> bool:
 
 @inline
 def finish_projected(system: System, t: float, h: float, ends: Ends) -> bool:
-    """The same with corrections until nothing changes, each by its own A and M, and the derivative if asked for.
+    """The new state of a step projected by corrections until nothing changes, each by its own A and M.
 
-    Of one more stage than a single one it is the lesser part, which is worth no code of its own.
+    And its derivative, if asked for. A step of several stages spends little of its time on its end, so that there is no
+    code for both at once, as `finish_landed` calls it. False where constraints may have lost their independence.
     """
     _, new, rates, derivative = ends
     n, rows = system.head[DEGREES], place_of_rows(system)

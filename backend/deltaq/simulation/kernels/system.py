@@ -25,9 +25,10 @@ class System(NamedTuple):
 
     `inputs` has shape (2n + 1 + parameters,), and `before` stands behind it; `outputs` and `phase` receive what the
     compiled functions say.
-    `responses`, shape (m n,), are the rows of AM⁻¹; `share`, shape (m m,), is AM⁻¹Aᵀ scaled to a unit diagonal by
-    `scales`, shape (m,), and factored, `order` the order of its rows; `of_gaps` and `gap_order` the same of the
-    holonomic ones. `multipliers`, shape (m,), are λ, `bends`, shape (n,), is q̈, `right`, shape (m,), a right side.
+    `responses`, shape (m n,), are the rows of AM⁻¹; `schur`, shape (m m,), is the Schur complement AM⁻¹Aᵀ scaled to a
+    unit diagonal by `scales`, shape (m,), and factored, `order` the order of its rows; `gap_schur` and `gap_order` are
+    the same of the holonomic ones. `multipliers`, shape (m,), are λ, `accelerations`, shape (n,), is q̈, `right`, shape
+    (m,), a right side.
     `gaps`, shape (2 m,), are g and w; `before`, shape (m n,), is A where the step began, `minor`, shape (m m,), room
     for a determinant. `projected`, shape (2n,), `rows`, shape (m n,), `signs`, shape (2 + SIGNS,), and `squares`,
     shape (m,), are what `Solved.projected`, `placed` or `landed` says; `sizes`, shape (m,), keeps the largest squares.
@@ -41,11 +42,11 @@ class System(NamedTuple):
     outputs: Floats
     phase: Floats
     responses: Floats
-    share: Floats
-    of_gaps: Floats
+    schur: Floats
+    gap_schur: Floats
     scales: Floats
     multipliers: Floats
-    bends: Floats
+    accelerations: Floats
     right: Floats
     gaps: Floats
     before: Floats
@@ -70,15 +71,15 @@ def block_at(data: int) -> System:
     outputs = before + 8 * m * n
     phase = outputs + 8 * head[OUTPUTS]
     responses = phase + 8 * head[PHASE_OUTPUTS]
-    share = responses + 8 * m * n
-    of_gaps = share + 8 * m * m
-    minor = of_gaps + 8 * m * m
+    schur = responses + 8 * m * n
+    gap_schur = schur + 8 * m * m
+    minor = gap_schur + 8 * m * m
     scales = minor + 8 * m * m
     multipliers = scales + 8 * m
     right = multipliers + 8 * m
     gaps = right + 8 * m
-    bends = gaps + 16 * m
-    projected = bends + 8 * n
+    accelerations = gaps + 16 * m
+    projected = accelerations + 8 * n
     rows = projected + 16 * n
     signs = rows + 8 * m * n
     squares = signs + 8 * (2 + SIGNS)
@@ -93,11 +94,11 @@ def block_at(data: int) -> System:
         doubles_at(outputs, head[OUTPUTS]),
         doubles_at(phase, head[PHASE_OUTPUTS]),
         doubles_at(responses, m * n),
-        doubles_at(share, m * m),
-        doubles_at(of_gaps, m * m),
+        doubles_at(schur, m * m),
+        doubles_at(gap_schur, m * m),
         doubles_at(scales, m),
         doubles_at(multipliers, m),
-        doubles_at(bends, n),
+        doubles_at(accelerations, n),
         doubles_at(right, m),
         doubles_at(gaps, 2 * m),
         doubles_at(before, m * n),
