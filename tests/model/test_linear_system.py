@@ -34,8 +34,8 @@ def test_a_pendulum_in_x_and_y(is_damped: bool) -> None:
     drag = DAMPING * rates if is_damped else np.zeros_like(rates)
     np.testing.assert_allclose(system.forces, [0.0, MASS * GRAVITY] - drag, rtol=1e-14)
     assert system.rows.shape == (3, 1, 2)
-    assert system.bends.shape == (3, 1)
+    assert system.gamma.shape == (3, 1)
     inwards = -place / LENGTH
     along = np.einsum("smn,sn->sm", system.rows, inwards)
     np.testing.assert_allclose(np.abs(along[:, 0]), np.linalg.norm(system.rows[:, 0], axis=1), rtol=1e-14)
-    np.testing.assert_allclose(system.bends / along, (LENGTH * omega**2)[:, None], rtol=1e-13)
+    np.testing.assert_allclose(system.gamma / along, (LENGTH * omega**2)[:, None], rtol=1e-13)

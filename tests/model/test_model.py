@@ -53,7 +53,7 @@ def test_one_state_gives_the_same_numbers_as_many(name: str) -> None:
     several = model.system(rows)
     for k, row in enumerate(rows):
         one = model.system_at(row)
-        for part in ("mass", "forces", "rows", "bends"):
+        for part in ("mass", "forces", "rows", "gamma"):
             np.testing.assert_array_equal(getattr(one, part), getattr(several, part)[k])
 
 

@@ -53,8 +53,8 @@ def _system(problem: Problem, parameters: Sequence[float]) -> list[tuple[Express
     outputs = [values[place] for place in problem.model.tape.outputs]
     mass = [[outputs[max(i, j) * (max(i, j) + 1) // 2 + min(i, j)] for j in range(n)] for i in range(n)]
     first = n * (n + 1) // 2
-    bends = eliminated(mass, outputs[first : first + n])
-    return [*zip(variables[:n], variables[n:], strict=True), *zip(variables[n:], bends, strict=True)]
+    accelerations = eliminated(mass, outputs[first : first + n])
+    return [*zip(variables[:n], variables[n:], strict=True), *zip(variables[n:], accelerations, strict=True)]
 
 
 def _values(tape: Tape, inputs: Sequence[Expression]) -> list[Expression]:

@@ -79,8 +79,8 @@ def _return(times: Floats, states: Floats, apart: Apart) -> float | None:
 
 def _rate(problem: Problem, state: Floats) -> Floats:
     """d/dt (q, q̇) at a state, shape (2n,)."""
-    bends = accelerations(problem, np.zeros(1), state[None, :])[0]
-    return np.concatenate([state[problem.degrees :], bends])
+    (own,) = accelerations(problem, np.zeros(1), state[None, :])
+    return np.concatenate([state[problem.degrees :], own])
 
 
 def _solved(problem: Problem, start: Floats, guess: float, apart: Apart) -> tuple[Floats, float, float] | None:

@@ -52,8 +52,8 @@ def is_linear(scene: Scene) -> bool:
     eqs = equations(scene)
     state = _state(eqs.symbols)
     slopes = (entry.diff(x) for row in eqs.mass_matrix for entry in row for x in state)
-    bends = (force.diff(x).diff(y) for force in eqs.forcing for x in state for y in state)
-    return all(map(vanishes, chain(slopes, bends)))
+    curvatures = (force.diff(x).diff(y) for force in eqs.forcing for x in state for y in state)
+    return all(map(vanishes, chain(slopes, curvatures)))
 
 
 def linear_laws(scene: Scene, rest: Mapping[str, str]) -> LinearLaws:

@@ -15,14 +15,14 @@ from .layout import Layout
 class LinearSystem(NamedTuple):
     """M q̈ = f + Aᵀλ, A q̈ = γ at each of some states, for n coordinates and m constraints.
 
-    `mass` (M) has shape (states, n, n), `forces` (f) shape (states, n), `rows` (A) shape (states, m, n) and `bends` (γ)
+    `mass` (M) has shape (states, n, n), `forces` (f) shape (states, n), `rows` (A) shape (states, m, n) and `gamma` (γ)
     shape (states, m); of a single state they have no axis of states.
     """
 
     mass: Floats
     forces: Floats
     rows: Floats
-    bends: Floats
+    gamma: Floats
 
 
 def linear_system(layout: Layout, table: Floats) -> LinearSystem:
@@ -30,8 +30,8 @@ def linear_system(layout: Layout, table: Floats) -> LinearSystem:
     n, m, size = layout.degrees, len(layout.multipliers), layout.degrees * (layout.degrees + 1) // 2
     first = size + n + (n + 1 if layout.is_powered else 0)
     rows = table[..., first : first + m * n].reshape(*table.shape[:-1], m, n)
-    bends = table[..., first + m * n : first + m * n + m]
-    return LinearSystem(table.take(_places(n), axis=-1), table[..., size : size + n], rows, bends)
+    gamma = table[..., first + m * n : first + m * n + m]
+    return LinearSystem(table.take(_places(n), axis=-1), table[..., size : size + n], rows, gamma)
 
 
 @lru_cache(maxsize=64)

@@ -103,19 +103,19 @@ class _Quadric:
     @classmethod
     def of(cls, unsolved: Unsolved, value: Expr, names: tuple[str, ...]) -> _Quadric | None:
         symbols = tuple(unsolved.free[name] for name in names)
-        bends = tuple(value.diff(symbol).diff(symbol) / 2 for symbol in symbols)
-        if not all(unsolved.is_still(bend) and not vanishes(bend) for bend in bends):
+        curvatures = tuple(value.diff(symbol).diff(symbol) / 2 for symbol in symbols)
+        if not all(unsolved.is_still(curvature) and not vanishes(curvature) for curvature in curvatures):
             return None
         if not all(vanishes(value.diff(one).diff(other)) for one, other in combinations(symbols, 2)):
             return None
         origin = dict.fromkeys(symbols, se.Integer(0))
         slopes = tuple(value.diff(symbol).subs(origin) for symbol in symbols)
-        squares = (slope**2 / (4 * bend) for slope, bend in zip(slopes, bends, strict=True))
+        squares = (slope**2 / (4 * curvature) for slope, curvature in zip(slopes, curvatures, strict=True))
         size = shortened(se.expand(sum(squares, -value.subs(origin))))
         if not unsolved.is_still(size):
             return None
-        centre = tuple(se.expand(-slope / (2 * bend)) for slope, bend in zip(slopes, bends, strict=True))
-        return cls(centre, tuple(unsolved.root(se.expand(size / bend)) for bend in bends))
+        centre = tuple(se.expand(-slope / (2 * curvature)) for slope, curvature in zip(slopes, curvatures, strict=True))
+        return cls(centre, tuple(unsolved.root(se.expand(size / curvature)) for curvature in curvatures))
 
 
 def _circles(unsolved: Unsolved, flat: tuple[Expr, ...]) -> Iterator[Way]:
@@ -256,12 +256,12 @@ def _angles(name: str, wave: _Wave) -> Iterator[Way]:
 def _roots(unsolved: Unsolved, flat: tuple[Expr, ...]) -> Iterator[Way]:
     for number, value in enumerate(flat):
         for name, symbol in reversed(tuple(unsolved.free.items())):
-            bend = value.diff(symbol).diff(symbol) / 2
-            if vanishes(bend) or not unsolved.is_still(bend):
+            curvature = value.diff(symbol).diff(symbol) / 2
+            if vanishes(curvature) or not unsolved.is_still(curvature):
                 continue
             slope, rest = (each.subs({symbol: 0}) for each in (value.diff(symbol), value))
-            square = shortened(se.expand(slope**2 - 4 * bend * rest))
+            square = shortened(se.expand(slope**2 - 4 * curvature * rest))
             guard = square / (square + slope**2)
             for sign in (1, -1):
-                found = (sign * se.sqrt(square) - slope) / (2 * bend)
+                found = (sign * se.sqrt(square) - slope) / (2 * curvature)
                 yield Way({name: found}, frozenset({number}), guards=(guard,))

@@ -209,8 +209,8 @@ class _Assembly:
     @property
     def has_modes(self) -> bool:
         """Whether motions follow more than one set of equations, and steps have to end where those change."""
-        bends = self.kinks and _has_words(self.scene, ENDING_STEPS)
-        return bool(self.contacts or self.frictions or self.switches or bends)
+        is_kinked = self.kinks and _has_words(self.scene, ENDING_STEPS)
+        return bool(self.contacts or self.frictions or self.switches or is_kinked)
 
     def _parameter(self) -> Expr:
         self._made += 1
@@ -281,9 +281,9 @@ class _Assembly:
         if not self.rows:
             return ()
         forcing = [self._held(force) for force in self._forcing]
-        m, (_, bends) = len(self.rows), self._kept
-        none = [ZERO] * len(bends)
-        columns = [*([*row.along, *none] for row in self.rows), [*forcing, *bends]]
+        m, (_, gamma) = len(self.rows), self._kept
+        none = [ZERO] * len(gamma)
+        columns = [*([*row.along, *none] for row in self.rows), [*forcing, *gamma]]
         solved = [each[: len(forcing)] for each in _solve(self._augmented, columns)]
         flexibility = [[_dot(row.a, solved[j]) for j in range(m)] for row in self.rows]
         load = [-(_dot(row.a, solved[m]) + row.bias) for row in self.rows]

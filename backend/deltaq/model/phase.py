@@ -61,12 +61,12 @@ def phase_space(eqs: Equations) -> PhaseSpace:
 def momenta_and_rates(eqs: Equations) -> tuple[Vector, Vector]:
     """p = ∂E/∂q̇ and ṗ = ∂E/∂q + Q, without the first of these where it is zero."""
     symbols = eqs.symbols
-    momenta, bends = (
+    momenta, slopes = (
         tuple(eqs.kinetic.diff(of[name]) for name in symbols.free) for of in (symbols.rates, symbols.values)
     )
-    if all(vanishes(bend) for bend in bends):
+    if all(vanishes(slope) for slope in slopes):
         return momenta, eqs.forces
-    return momenta, tuple(a + b for a, b in zip(bends, eqs.forces, strict=True))
+    return momenta, tuple(a + b for a, b in zip(slopes, eqs.forces, strict=True))
 
 
 def vanishes(expression: Expr) -> bool:

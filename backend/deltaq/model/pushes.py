@@ -83,11 +83,11 @@ def _ends(found: Solved, impulse: Expr, before: Table) -> list[Expr]:
     kicked = tuple(impulse * part for part in found.free)
     rates = [eqs.symbols.rates[name] for name in eqs.symbols.free]
     slips = [slip.subs(dict(zip(rates, map(_sum, rates, kicked), strict=True))) for slip in eqs.constraints.slips]
-    lost = along(found.responses, found.share.solve(slips))
+    lost = along(found.responses, found.schur.solve(slips))
     crossed = tuple(tuple(dot(row, each) for each in found.responses) for row in before)
     return [
         *_flat(found.responses),
-        *found.share.inverse(),
+        *found.schur.inverse(),
         *found.free,
         *(kick - part for kick, part in zip(kicked, lost, strict=True)),
         *_flat(eqs.constraints.jacobian),

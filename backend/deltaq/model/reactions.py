@@ -52,10 +52,10 @@ def _own(scene: Scene, own: Symbols, wide: Equations, name: str) -> Mapping[Expr
     there = wide.symbols
     values = {there.values[each]: own.values[each] for each in there.values if each in own.values}
     rates = {there.rates[each]: own.rates[each] for each in there.free if each != name}
-    bends = {there.accelerations[each]: own.accelerations[each] for each in there.free if each != name}
+    accelerations = {there.accelerations[each]: own.accelerations[each] for each in there.free if each != name}
     guide = next((guide for guide in scene.guides if guide.coordinate == name), None)
     value = own.values[name] if guide is None else to_symengine(guide.value.tree, own)
     rate = ZERO if guide is None else value.diff(own.values[CLOCK])
-    bend = ZERO if guide is None else rate.diff(own.values[CLOCK])
-    as_held = {there.values[name]: value, there.rates[name]: rate, there.accelerations[name]: bend}
-    return {**values, **rates, **bends, **as_held}
+    acceleration = ZERO if guide is None else rate.diff(own.values[CLOCK])
+    as_held = {there.values[name]: value, there.rates[name]: rate, there.accelerations[name]: acceleration}
+    return {**values, **rates, **accelerations, **as_held}

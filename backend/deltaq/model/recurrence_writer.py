@@ -73,8 +73,8 @@ def recurrences_of(tape: Tape, degrees: int, *, is_powered: bool = False) -> Rec
     power = None
     if is_powered:
         power = rest[degrees]
-        for share, bend in zip(rest[degrees + 1 :], accelerations, strict=True):
-            power = writer.add(power, writer.multiply(share, bend))
+        for factor, acceleration in zip(rest[degrees + 1 :], accelerations, strict=True):
+            power = writer.add(power, writer.multiply(factor, acceleration))
     return writer.finished(accelerations, power, pivots)
 
 
@@ -407,11 +407,15 @@ class _Writer:
         self, accelerations: list[Value], power: Value | None, pivots: list[tuple[Value, Value]]
     ) -> Recurrences:
         """The recurrences of what is needed of all that was written."""
-        bends = [self.series(each).place for each in accelerations]
+        of_accelerations = [self.series(each).place for each in accelerations]
         work = None if power is None else self.series(power).place
         pairs = [(self.series(one).place, self.series(other).place) for one, other in pivots]
         conditions = list(self._conditions)
-        wanted = {*bends, *(place for pair in pairs for place in pair), *(each.argument for each in conditions)}
+        wanted = {
+            *of_accelerations,
+            *(place for pair in pairs for place in pair),
+            *(each.argument for each in conditions),
+        }
         wanted |= set() if work is None else {work}
         operations, moved = _needed(self._with_quotients(wanted), self._first, wanted)
         kept = sorted({each.constant for each in operations if each.code in WITH_CONSTANT})
@@ -419,7 +423,7 @@ class _Writer:
         return Recurrences(
             self._degrees,
             tuple(_numbered(each, numbers) for each in operations),
-            tuple(moved[place] for place in bends),
+            tuple(moved[place] for place in of_accelerations),
             None if work is None else moved[work],
             tuple(Condition(each.kind, moved[each.argument]) for each in conditions),
             tuple((moved[one], moved[other]) for one, other in pairs),

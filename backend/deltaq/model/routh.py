@@ -53,8 +53,8 @@ def reduction(scene: Scene, momenta: Mapping[str, str], starts: Mapping[str, str
     routh = _Routh(scene, eqs, tuple(momenta))
     energy = routh.centrifugal(tuple(eqs.symbols.values[name] for name in momenta.values()))
     writer = Writer(eqs.symbols, scene.names)
-    bends = (energy.diff(eqs.symbols.values[name]) for name in eqs.symbols.moving)
-    potential = None if all(map(vanishes, bends)) else writer.expression(energy)
+    slopes = (energy.diff(eqs.symbols.values[name]) for name in eqs.symbols.moving)
+    potential = None if all(map(vanishes, slopes)) else writer.expression(energy)
     if routh.is_orthogonal:
         return Reduction(potential, {})
     shifts = routh.shifts()
@@ -113,8 +113,8 @@ class _Routh:
             for j in self._others
         ]
         moving = [symbols.values[name] for name in symbols.moving]
-        bends = [entry.diff(x) for row in masses for entry in row for x in moving]
-        if self.scene.guides or not all(map(vanishes, (*gaps, *bends))):
+        slopes = [entry.diff(x) for row in masses for entry in row for x in moving]
+        if self.scene.guides or not all(map(vanishes, (*gaps, *slopes))):
             raise SceneError(Problem("ladder-routh", parameters={"name": ", ".join(self.cyclic)}))
         return tuple(each.expand() for each in _solution(masses, moments))
 

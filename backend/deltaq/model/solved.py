@@ -91,14 +91,14 @@ class Factors:
 
 @dataclass(frozen=True)
 class Solved:
-    """What a model with constraints does, solved for; `mass` are the factors of M, `share` those of S.
+    """What a model with constraints does, solved for; `mass` are the factors of M, `schur` those of S.
 
     `responses` are the rows of AM⁻¹, `free` is q̈ without reactions.
     """
 
     eqs: Equations
     mass: Factors
-    share: Factors
+    schur: Factors
     responses: tuple[Vector, ...]
     free: Vector
     multipliers: Vector
@@ -111,7 +111,7 @@ class Solved:
     @cached_property
     def signs(self) -> Vector:
         """What tells whether all this is so: the smallest relative pivots of M and S, and the smallest of M itself."""
-        return (self.mass.smallest, self.share.smallest, _least(self.mass.pivots))
+        return (self.mass.smallest, self.schur.smallest, _least(self.mass.pivots))
 
     @property
     def motion(self) -> list[Expr]:
@@ -127,7 +127,7 @@ class Solved:
         The latter with A `before` a step: above zero, the constraints did not lose their independence on the way.
         """
         symbols, held = self.eqs.symbols, self._held
-        shares = (self.share.solve(missed) for missed in (held.gaps, held.slips))
+        shares = (self.schur.solve(missed) for missed in (held.gaps, held.slips))
         off = (along(self.responses, share) for share in shares)
         state = [of[name] for of in (symbols.values, symbols.rates) for name in symbols.free]
         moved = (number - change for number, change in zip(state, (part for each in off for part in each), strict=True))
@@ -140,9 +140,9 @@ class Solved:
         With the latter a kernel takes g anew where q has moved, and corrects it once more by the same A and M: of a
         correction of the size δ it leaves about δ³.
         """
-        first = along(self.responses, self.share.solve(self._held.gaps))
+        first = along(self.responses, self.schur.solve(self._held.gaps))
         count = len(self._held.gaps)
-        columns = (self.share.solve([ONE if i == k else ZERO for i in range(count)]) for k in range(count))
+        columns = (self.schur.solve([ONE if i == k else ZERO for i in range(count)]) for k in range(count))
         return [*first, *(part for column in columns for part in along(self.responses, column))]
 
     def landed(self, before: Table) -> list[Expr]:
@@ -152,12 +152,12 @@ class Solved:
         """
         symbols, held = self.eqs.symbols, self._held
         rates = [symbols.rates[name] for name in symbols.free]
-        off = along(self.responses, self.share.solve(held.slips))
+        off = along(self.responses, self.schur.solve(held.slips))
         kept = {rate: rate - change for rate, change in zip(rates, off, strict=True)}
-        bends = [each.subs(kept) for each in self.accelerations]
+        accelerations = [each.subs(kept) for each in self.accelerations]
         power = self.power.subs(kept) if self.eqs.is_powered else ZERO
         squares = (dot(row, row) for row in self._held.jacobian)
-        return [*off, *bends, *self._told(before), power, *squares]
+        return [*off, *accelerations, *self._told(before), power, *squares]
 
     def _told(self, before: Table) -> list[Expr]:
         """A by rows, how it turned since `before`, then `signs`."""
@@ -235,14 +235,14 @@ def solved(eqs: Equations) -> Solved | None:
     if any(pivot == 0 for pivot in mass.pivots):
         return None
     responses, free = tuple(mass.solve(row) for row in held.jacobian), mass.solve(eqs.forcing)
-    share = Factors.of([[dot(row, each) for each in responses] for row in held.jacobian])
-    if any(pivot == 0 for pivot in share.pivots):
+    schur = Factors.of([[dot(row, each) for each in responses] for row in held.jacobian])
+    if any(pivot == 0 for pivot in schur.pivots):
         return None
-    wanted = [bend - dot(row, free) for bend, row in zip(held.accelerations, held.jacobian, strict=True)]
-    multipliers = share.solve(wanted)
+    wanted = [gamma - dot(row, free) for gamma, row in zip(held.accelerations, held.jacobian, strict=True)]
+    multipliers = schur.solve(wanted)
     added = (dot(multipliers, column) for column in zip(*responses, strict=True))
     accelerations = tuple(a + b for a, b in zip(free, added, strict=True))
-    return Solved(eqs, mass, share, responses, free, multipliers, accelerations)
+    return Solved(eqs, mass, schur, responses, free, multipliers, accelerations)
 
 
 def compiled_solution(eqs: Equations, effort: int) -> CompiledSolution | None:

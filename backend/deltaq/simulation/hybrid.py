@@ -273,9 +273,9 @@ def _falling(current: ModeState, event: Event) -> Event:
     """An event that ends the motion, with the first two derivatives of its value along the motion by differences."""
     n = len(current.q)
     at = current.at(event.time, event.state[:n].copy(), event.state[n : 2 * n].copy())
-    rates, near = at.accelerations, NEAR * current.problem.t_end
+    a, near = at.accelerations, NEAR * current.problem.t_end
     before, now, after = (
-        at.at(at.time + h, at.q + h * (at.v + 0.5 * h * rates), at.v + h * rates).watched[event.index]
+        at.at(at.time + h, at.q + h * (at.v + 0.5 * h * a), at.v + h * a).watched[event.index]
         for h in (-near, 0.0, near)
     )
     return replace(event, fall=(after - before) / (2.0 * near), bend=(after - 2.0 * now + before) / near**2)

@@ -110,12 +110,12 @@ class ModeState:
     @property
     def kept(self) -> tuple[Floats, Floats]:
         """A, shape (m, n), and γ, shape (m,), of the scene's constraints."""
-        return self._system.rows, self._system.bends
+        return self._system.rows, self._system.gamma
 
-    def moved_by(self, forces: Floats, bends: Floats | None = None) -> Floats:
-        """x of M x = forces + Aᵀλ, A x = bends (0 if not given): what forces, or impulses, do to q̈, or to q̇.
+    def moved_by(self, forces: Floats, gamma: Floats | None = None) -> Floats:
+        """x of M x = forces + Aᵀλ, A x = gamma (0 if not given): what forces, or impulses, do to q̈, or to q̇.
 
-        `forces` and what is returned have shape (n,), `bends` shape (m,). Rows that follow from others do so but for
+        `forces` and what is returned have shape (n,), `gamma` shape (m,). Rows that follow from others do so but for
         rounding, of which nothing is to be made.
         """
         count = len(self.problem.model.layout.multipliers)
@@ -124,14 +124,14 @@ class ModeState:
         rows = self.kept[0]
         scale = np.abs(self.mass).max() / (np.abs(rows).max() or 1.0)
         matrix = np.block([[self.mass, scale * rows.T], [scale * rows, np.zeros((count, count))]])
-        right = np.concatenate([forces, np.zeros(count) if bends is None else scale * bends])
+        right = np.concatenate([forces, np.zeros(count) if gamma is None else scale * gamma])
         nothing = None if self.problem.rank == count else SMALLEST_SCHUR_PIVOT
         return np.asarray(np.linalg.lstsq(matrix, right, rcond=nothing)[0][: len(self.q)])
 
     @once
     def accelerations(self) -> Floats:
         """q̈ in this mode, shape (n,)."""
-        return self.moved_by(self._system.forces, self._system.bends)
+        return self.moved_by(self._system.forces, self._system.gamma)
 
     @property
     def touching(self) -> list[int]:

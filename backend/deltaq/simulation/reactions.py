@@ -42,8 +42,7 @@ def reactions_at(problem: Problem, times: Floats, states: Floats) -> tuple[Float
         return found
     states, held = found
     times = times[: len(states)]
-    bends = accelerations(problem, times, states)
-    rows = np.hstack([problem.inputs(times, states), bends, held.multipliers])
+    rows = np.hstack([problem.inputs(times, states), accelerations(problem, times, states), held.multipliers])
     return states, Reactions(np.hstack([held.multipliers, problem.released.function.table(rows)]), held.gaps)
 
 

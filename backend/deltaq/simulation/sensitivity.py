@@ -28,16 +28,16 @@ def sensitivities(layout: Layout, table: Floats, sizes: Floats, rank: int) -> tu
     system = linear_system(layout, table)
     matrix = np.zeros((len(table), n + m, n + m))
     matrix[:, :n, :n], matrix[:, n:, :n], matrix[:, :n, n:] = system.mass, system.rows, -system.rows.transpose(0, 2, 1)
-    right = np.hstack([system.forces, system.bends])
+    right = np.hstack([system.forces, system.gamma])
     inverse = _inverse(matrix) if rank == m else _inverse_of_independent(matrix)
     with np.errstate(invalid="ignore"):
         weights = (inverse[:, :n] / sizes[:, :, None]).sum(axis=1)
         found = np.nan_to_num(np.abs(inverse @ np.abs(right[:, :, None]))[:, :, 0], nan=0.0)
-        bends, multipliers = found[:, :n], found[:, n:]
-        of_mass = weights[:, rows] * bends[:, columns] + np.where(
-            rows != columns, weights[:, columns] * bends[:, rows], 0.0
+        accelerations, multipliers = found[:, :n], found[:, n:]
+        of_mass = weights[:, rows] * accelerations[:, columns] + np.where(
+            rows != columns, weights[:, columns] * accelerations[:, rows], 0.0
         )
-        of_rows = weights[:, None, :n] * multipliers[:, :, None] + weights[:, n:, None] * bends[:, None, :]
+        of_rows = weights[:, None, :n] * multipliers[:, :, None] + weights[:, n:, None] * accelerations[:, None, :]
     return np.hstack([of_mass, weights[:, :n]]), np.hstack([of_rows.reshape(len(table), m * n), weights[:, n:]])
 
 

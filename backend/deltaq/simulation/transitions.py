@@ -238,8 +238,8 @@ def _at_zero(current: ModeState, value: float, rate: float, bend: float) -> Mode
     late = 2.0 * value / (rate - math.sqrt(square)) if rate < 0.0 and square >= 0.0 else 0.0
     if not 0.0 < late < LATE * current.problem.t_end:
         return current
-    rates = current.accelerations
-    q, v = current.q - late * (current.v - 0.5 * late * rates), current.v - late * rates
+    a = current.accelerations
+    q, v = current.q - late * (current.v - 0.5 * late * a), current.v - late * a
     return current.at(current.time - late, q, v)
 
 

@@ -110,10 +110,10 @@ class Minimal:
         symbols, left = self.found.symbols, tuple(self._names.values())
         algebra = SymEngineAlgebra(symbols)
         rates = [algebra.time_derivative(value) for value in self.found.values.values()]
-        bends = [algebra.time_derivative(rate) for rate in rates]
+        accelerations = [algebra.time_derivative(rate) for rate in rates]
         moving = [part[name] for part in (symbols.values, symbols.rates, symbols.accelerations) for name in left]
         inputs = [*moving, symbols.time, *(symbols.values[each.name] for each in self.full.parameters)]
-        return compile_expressions(inputs, [*self.found.values.values(), *rates, *bends])
+        return compile_expressions(inputs, [*self.found.values.values(), *rates, *accelerations])
 
     def back(self, motion: Motion) -> Motion:
         """The motion in the coordinates of the full scene."""
@@ -121,12 +121,12 @@ class Minimal:
         values, rates, _ = self.whole(motion, still)
         return Motion(motion.times, values, rates)
 
-    def whole(self, motion: Motion, bends: Mapping[str, Floats]) -> tuple[Mapping[str, Floats], ...]:
+    def whole(self, motion: Motion, accelerations: Mapping[str, Floats]) -> tuple[Mapping[str, Floats], ...]:
         """Values, rates and accelerations of the full scene's coordinates, by name, shape (samples,) each.
 
-        `bends` are the accelerations of the minimal ones.
+        `accelerations` are those of the minimal ones.
         """
-        given = (motion.values, motion.rates, bends)
+        given = (motion.values, motion.rates, accelerations)
         columns = [part[name] for part in given for name in self._names]
         count, constants = len(motion.times), [each.value for each in self.full.parameters]
         rows = np.column_stack([*columns, motion.times, np.tile(constants, (count, 1))])

@@ -81,9 +81,8 @@ def compared(pair: Beside, cancelled: Flag) -> Comparison | None:
     if not count or trajectory.reactions is None or trajectory.estimate is None or exact.trajectory.estimate is None:
         return None
     motion = seen(exact)
-    bends = accelerations(exact.problem, times, states)
-    free = exact.problem.model.layout.free
-    whole = pair.below.whole(motion, dict(zip(free, bends.T, strict=True)))
+    columns = zip(exact.problem.model.layout.free, accelerations(exact.problem, times, states).T, strict=True)
+    whole = pair.below.whole(motion, dict(columns))
     order = pair.run.problem.model.layout.free
     q, v, a = (np.column_stack([part[name] for name in order])[:count] for part in whole)
     truth = _multipliers(pair.run.problem, times[:count], np.hstack([q, v]), a)
@@ -119,10 +118,10 @@ def _unique(problem: Problem) -> Mapping[int, str]:
     return {k: name for k, name in enumerate(problem.model.layout.multipliers) if name not in unknown}
 
 
-def _multipliers(problem: Problem, times: Floats, states: Floats, bends: Floats) -> Floats:
-    """λ of M q̈ − f = Aᵀλ, the least by least squares: shape (samples, m). `bends` are q̈, shape (samples, n)."""
+def _multipliers(problem: Problem, times: Floats, states: Floats, q_dd: Floats) -> Floats:
+    """λ of M q̈ − f = Aᵀλ, the least by least squares: shape (samples, m). `q_dd` is q̈, shape (samples, n)."""
     system = problem.system(times, states)
-    held = np.einsum("tij,tj->ti", system.mass, bends) - system.forces
+    held = np.einsum("tij,tj->ti", system.mass, q_dd) - system.forces
     nothing = None if problem.rank == system.rows.shape[1] else DEPENDENT
     pairs = zip(system.rows, held, strict=True)
     return np.stack([np.linalg.lstsq(rows.T, each, rcond=nothing)[0] for rows, each in pairs])
