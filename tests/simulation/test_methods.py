@@ -13,10 +13,10 @@ from tests.simulation.scenes import get_scene, oscillator
 
 from deltaq.errors import Problem, UnknownNameError
 from deltaq.packages import modules_of
-from deltaq.simulation.integration import explicit_weights
 from deltaq.simulation.library import get_method, method_ids
 from deltaq.simulation.method import Method, Newmark, Partitioned, Tableau
 from deltaq.simulation.stability import growth, real_stability
+from deltaq.simulation.weights import explicit_weights
 
 METHODS = [pytest.param(get_method(identifier), id=identifier) for identifier in method_ids()]
 EXPLICIT = [case for case in METHODS if isinstance(case.values[0].scheme, Tableau)]

@@ -17,7 +17,7 @@ from ..mechanics.library import load_scene
 from ..simulation.audit import Audit
 from ..simulation.audited import audited_run
 from ..simulation.derivatives import accelerations, derivatives
-from ..simulation.integration import explicit_weights, motion_of
+from ..simulation.integration import motion_of
 from ..simulation.kernels.motion import FINE, STEP_LIMIT
 from ..simulation.kernels.step import make_workspace
 from ..simulation.kernels.step_control import Control
@@ -31,6 +31,7 @@ from ..simulation.run import Run, Steps
 from ..simulation.service import problem_of
 from ..simulation.stability import real_stability
 from ..simulation.stiffness import drive, spectrum
+from ..simulation.weights import explicit_weights
 from .deviation import Deviation, make_record
 
 METHOD, TOLERANCE = "dop853", 1e-12

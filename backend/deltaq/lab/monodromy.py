@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 from ..mechanics.library import load_scene
 from ..simulation.audit import Audit
 from ..simulation.audited import audited_run
-from ..simulation.integration import Flag, explicit_weights, motion_of
+from ..simulation.integration import Flag, motion_of
 from ..simulation.kernels.monodromy import Flow, Found, Survey, make_newton_workspace, survey
 from ..simulation.kernels.motion import CANCELLED, FINE, STEP_UNDERFLOW
 from ..simulation.kernels.plan import make_plan
@@ -33,6 +33,7 @@ from ..simulation.problem import Problem as InitialValueProblem
 from ..simulation.run import Steps
 from ..simulation.service import problem_of
 from ..simulation.stability import real_stability
+from ..simulation.weights import explicit_weights
 from .engine import engine, while_wanted
 
 METHOD = "dop853"

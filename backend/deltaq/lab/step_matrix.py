@@ -14,7 +14,8 @@ from functools import singledispatch
 
 import numpy as np
 
-from ..simulation.method import Newmark, Partitioned, Row, Series, Tableau
+from ..simulation import weights
+from ..simulation.method import Newmark, Partitioned, Series, Tableau
 from ..simulation.problem import Floats, Problem
 from ..simulation.stiffness import jacobians
 
@@ -70,7 +71,7 @@ def step_matrix(scheme: object, _motion: Linear) -> Step:
 def _of_tableau(scheme: Tableau, motion: Linear) -> Step:
     """kᵢ = J (1 + h Σ aᵢⱼ kⱼ), R = 1 + h Σ bᵢ kᵢ"""
     one = np.eye(len(motion.jacobian))
-    a, b = _square(scheme.a, scheme.stages), _row(scheme.b)
+    a, b = weights.matrix(scheme.a, scheme.stages), weights.matrix((scheme.b,), scheme.stages)
 
     def matrix(h: float) -> Floats:
         slopes = np.zeros((scheme.stages, *one.shape))
@@ -99,7 +100,7 @@ def _of_series(scheme: Series, motion: Linear) -> Step:
 def _of_pair(scheme: Partitioned, motion: Linear) -> Step:
     """Q = q + h A V and P (Q, V) = p + h Â S (Q, V) at all stages; then q + h Σ bᵢ Vᵢ and p + h Σ bᵢ S (Qᵢ, Vᵢ)."""
     n, s, p = len(motion.momentum), scheme.stages, motion.momentum
-    tables = (_square(scheme.a, s), _square(scheme.momentum_a, s), _row(scheme.b))
+    tables = (weights.matrix(scheme.a, s), weights.matrix(scheme.momentum_a, s), weights.matrix((scheme.b,), s))
     a, hat, b = (np.kron(table, np.eye(n)) for table in tables)
     p_q, p_v, s_q, s_v = (
         np.kron(np.eye(s), part[:, half]) for part in (p, motion.rate) for half in (slice(0, n), slice(n, 2 * n))
@@ -130,14 +131,3 @@ def _of_newmark(scheme: Newmark, motion: Linear) -> Step:
         return np.asarray(np.linalg.solve(after, before))
 
     return matrix
-
-
-def _square(rows: tuple[Row, ...], size: int) -> Floats:
-    matrix = np.zeros((size, size))
-    for index, row in enumerate(rows):
-        matrix[index, : len(row)] = _row(row)
-    return matrix
-
-
-def _row(row: Row) -> Floats:
-    return np.array([[float(number) for number in row]])

@@ -62,38 +62,38 @@ def consistent_start(model: Model, parameters: Floats, values: Floats, rates: Fl
     Raises SceneError where there are none near, or where constraints lose their independence.
     """
     places = model.layout.constraints
-    held = _Held(model, parameters)
-    found = held.nearest(values)
+    constraints = _Constraints(model, parameters)
+    found = constraints.nearest(values)
     moved = np.abs(found - values) / np.maximum(1.0, np.abs(values))
-    worst = held.worst(values if not np.isfinite(found).all() else found)
-    if not np.isfinite(found).all() or held.is_off(found) or moved.max() > FARTHEST:
-        raise _refused("constraint-not-met", places[worst], held.gaps(values, rates)[worst])
-    shares, vectors = held.shares(found)
-    rank = int(np.count_nonzero(shares > SMALLEST_SCHUR_PIVOT))
-    if held.rank_around(found) > rank:
+    worst = constraints.worst(values if not np.isfinite(found).all() else found)
+    if not np.isfinite(found).all() or constraints.is_off(found) or moved.max() > FARTHEST:
+        raise _refused("constraint-not-met", places[worst], constraints.gaps(values, rates)[worst])
+    eigenvalues, vectors = constraints.spectrum(found)
+    rank = int(np.count_nonzero(eigenvalues > SMALLEST_SCHUR_PIVOT))
+    if constraints.rank_around(found) > rank:
         weak = int(np.argmax(np.abs(vectors[:, 0])))
         raise _refused("constraints-locked", places[weak], 0.0)
-    speeds = held.nearest_rates(found, rates)
-    slips = np.abs(held.slips(found, speeds))
-    if (slips > CLOSE * held.rate_sizes(found, speeds)).any():
+    speeds = constraints.nearest_rates(found, rates)
+    slips = np.abs(constraints.slips(found, speeds))
+    if (slips > CLOSE * constraints.rate_sizes(found, speeds)).any():
         worst = int(np.argmax(slips))
         raise _refused("constraint-rate-not-met", places[worst], slips[worst])
-    free = np.abs(vectors[:, shares <= SMALLEST_SCHUR_PIVOT]).max(axis=1, initial=0.0)
+    free = np.abs(vectors[:, eigenvalues <= SMALLEST_SCHUR_PIVOT]).max(axis=1, initial=0.0)
     return Start(found, speeds, rank, tuple(int(k) for k in np.flatnonzero(free > SHARES)))
 
 
 def idle_multipliers(problem: Problem) -> Floats:
     """λ that exert no force where a problem begins, Aᵀλ = 0, one for each constraint too many: shape (idle, m)."""
-    held, values = _Held(problem.model, np.array(problem.parameters)), np.array(problem.values)
-    shares, vectors = held.shares(values)
-    return np.asarray((vectors[:, shares <= SMALLEST_SCHUR_PIVOT] * held.scales(values)[:, None]).T)
+    constraints, values = _Constraints(problem.model, np.array(problem.parameters)), np.array(problem.values)
+    eigenvalues, vectors = constraints.spectrum(values)
+    return np.asarray((vectors[:, eigenvalues <= SMALLEST_SCHUR_PIVOT] * constraints.scales(values)[:, None]).T)
 
 
 def unmet(problem: Problem) -> SceneError:
     """That constraints cannot be kept where a problem begins: with numbers whose digits end before it matters."""
-    held, values = _Held(problem.model, np.array(problem.parameters)), np.array(problem.values)
-    worst = held.worst(values)
-    gap = float(np.nan_to_num(held.gaps(values, np.array(problem.rates))[worst]))
+    constraints, values = _Constraints(problem.model, np.array(problem.parameters)), np.array(problem.values)
+    worst = constraints.worst(values)
+    gap = float(np.nan_to_num(constraints.gaps(values, np.array(problem.rates))[worst]))
     return _refused("constraint-not-met", problem.model.layout.constraints[worst], gap)
 
 
@@ -102,8 +102,8 @@ def _refused(code: str, place: int, gap: float) -> SceneError:
 
 
 @dataclass(frozen=True)
-class _Held:
-    """A model's constraints at t = 0."""
+class _Constraints:
+    """A model's constraints g(q) = 0 and w(q, q̇) = 0 at t = 0, with M and A, whose rows are ∂w/∂q̇."""
 
     model: Model
     parameters: Floats
@@ -111,7 +111,7 @@ class _Held:
     def _inputs(self, q: Floats, v: Floats) -> Floats:
         return np.concatenate([q, v, [0.0], self.parameters])[None, :]
 
-    def _parts(self, q: Floats) -> tuple[Floats, Floats]:
+    def _mass_and_rows(self, q: Floats) -> tuple[Floats, Floats]:
         """M, shape (n, n), and A, shape (m, n)."""
         system = self.model.system(self._inputs(q, np.zeros(q.size)))
         return system.mass[0], system.rows[0]
@@ -138,12 +138,12 @@ class _Held:
 
     def rate_sizes(self, q: Floats, v: Floats) -> Floats:
         """What w is a difference of, about: shape (m,)."""
-        return self._sizes(self._parts(q)[1], v) + 1e-300
+        return self._sizes(self._mass_and_rows(q)[1], v) + 1e-300
 
     def is_off(self, q: Floats) -> bool:
         """Whether a holonomic constraint is not kept."""
         gaps = np.abs(self._off(q))
-        return bool((gaps > CLOSE * (self._sizes(self._parts(q)[1][: gaps.size], q) + 1e-300)).any())
+        return bool((gaps > CLOSE * (self._sizes(self._mass_and_rows(q)[1][: gaps.size], q) + 1e-300)).any())
 
     def worst(self, q: Floats) -> int:
         """The holonomic constraint that is furthest from being kept."""
@@ -154,17 +154,17 @@ class _Held:
         """The position on all g = 0 nearest to `start`, shape (n,); not finite where there is none to be found."""
         if not self.model.layout.holonomic:
             return start
-        mass = self._parts(start)[0]
+        mass = self._mass_and_rows(start)[0]
         found = self._iterated(start, start, mass)
         return found if found is not None else np.full(start.size, np.nan)
 
     def _iterated(self, start: Floats, q: Floats, mass: Floats) -> Floats | None:
         for each in range(PASSES):
-            rows, off = self._parts(q)[1][: self.model.layout.holonomic], self._off(q)
+            rows, off = self._mass_and_rows(q)[1][: self.model.layout.holonomic], self._off(q)
             if not (np.isfinite(rows).all() and np.isfinite(off).all()):
                 return None
             aim = start if each < PASSES // 2 else q  # nearest to where it was wanted, or where that is too far, here
-            moved = aim + _answer(mass, rows, rows @ (q - aim) - off)
+            moved = aim + _shortest(mass, rows, rows @ (q - aim) - off)
             change = np.max(np.abs(moved - q) / np.maximum(1.0, np.abs(q)))
             q = moved
             if not np.isfinite(change):
@@ -175,24 +175,25 @@ class _Held:
 
     def nearest_rates(self, q: Floats, rates: Floats) -> Floats:
         """The rates on w = 0 nearest to those given; both have shape (n,)."""
-        (mass, rows), v = self._parts(q), rates
+        (mass, rows), v = self._mass_and_rows(q), rates
         for _ in range(3):
-            v = v - _answer(mass, rows, self.slips(q, v))
+            v = v - _shortest(mass, rows, self.slips(q, v))
         return v
 
     def scales(self, q: Floats) -> Floats:
         """What brings the diagonal of AM⁻¹Aᵀ to 1 from both sides: shape (m,)."""
-        return _scales(self._share(q))
+        return _scales(self._schur_complement(q))
 
-    def shares(self, q: Floats) -> tuple[Floats, Floats]:
+    def spectrum(self, q: Floats) -> tuple[Floats, Floats]:
         """The eigenvalues of AM⁻¹Aᵀ scaled to a unit diagonal, rising, shape (m,), and its eigenvectors, (m, m)."""
-        share = self._share(q)
-        inverse = _scales(share)
-        values, vectors = np.linalg.eigh(share * inverse * inverse[:, None])
+        schur = self._schur_complement(q)
+        inverse = _scales(schur)
+        values, vectors = np.linalg.eigh(schur * inverse * inverse[:, None])
         return values, vectors
 
-    def _share(self, q: Floats) -> Floats:
-        mass, rows = self._parts(q)
+    def _schur_complement(self, q: Floats) -> Floats:
+        """AM⁻¹Aᵀ, shape (m, m)."""
+        mass, rows = self._mass_and_rows(q)
         return np.asarray(rows @ _solved(mass, rows.T))
 
     def rank_around(self, q: Floats) -> int:
@@ -202,13 +203,13 @@ class _Held:
             near = q + AROUND * np.maximum(1.0, np.abs(q)) * source.uniform(-1.0, 1.0, q.size)
             found = self.nearest(near)
             if np.isfinite(found).all():
-                ranks.append(int(np.count_nonzero(self.shares(found)[0] > SMALLEST_SCHUR_PIVOT)))
+                ranks.append(int(np.count_nonzero(self.spectrum(found)[0] > SMALLEST_SCHUR_PIVOT)))
         return max(ranks, default=0)
 
 
-def _scales(share: Floats) -> Floats:
+def _scales(schur: Floats) -> Floats:
     """What brings a diagonal to 1 from both sides, 0 where it is 0: shape (m,)."""
-    own = np.sqrt(np.maximum(share.diagonal(), 0.0))
+    own = np.sqrt(np.maximum(schur.diagonal(), 0.0))
     return np.divide(1.0, own, out=np.zeros_like(own), where=own > 0.0)
 
 
@@ -220,12 +221,12 @@ def _solved(mass: Floats, right: NDArray[np.float64]) -> Floats:
         return np.asarray(np.linalg.lstsq(mass, right, rcond=None)[0])
 
 
-def _answer(mass: Floats, rows: Floats, right: Floats) -> Floats:
+def _shortest(mass: Floats, rows: Floats, right: Floats) -> Floats:
     """The shortest x in the metric of M with A x = `right`: M⁻¹Aᵀ(AM⁻¹Aᵀ)⁺ right."""
     responses = _solved(mass, rows.T)
-    share = rows @ responses
-    inverse = _scales(share)
-    values, vectors = np.linalg.eigh(share * inverse * inverse[:, None])
+    schur = rows @ responses
+    inverse = _scales(schur)
+    values, vectors = np.linalg.eigh(schur * inverse * inverse[:, None])
     kept = values > SMALLEST_SCHUR_PIVOT  # those that count as independent
     inside = (vectors[:, kept].T @ (inverse * right)) / values[kept]
     return np.asarray(responses @ (inverse * (vectors[:, kept] @ inside)))

@@ -26,18 +26,18 @@ from .kernels.rattle import make_held
 from .kernels.solved import constrained_finish
 from .kernels.split_step import SplitWeights, make_split_workspace
 from .kernels.splitting import integrate_split
-from .kernels.stages import ImplicitWeights
-from .kernels.step import Weights, make_workspace
+from .kernels.step import make_workspace
 from .kernels.step_control import Control
 from .kernels.switch import Switch, make_switch
 from .kernels.system import SIGNS, block_size
 from .kernels.taylor import Addresses, begin_series, integrate_series, make_series
 from .kernels.taylor import Series as SeriesArrays
 from .kernels.watch import NODES, NODES_OF_SERIES, Watch, make_watch, unwatched
-from .method import Newmark, Partitioned, Row, Scheme, Series, Tableau
+from .method import Newmark, Partitioned, Scheme, Series, Tableau
 from .problem import Floats, Problem
 from .series.engine import jet_of_model
 from .series.single import single, told_of
+from .weights import explicit_weights, implicit_weights, numbers
 
 Flag = NDArray[np.int64]  # one number; anything but 0 ends the run
 
@@ -118,7 +118,7 @@ def kicked_of(scheme: Partitioned, problem: Problem) -> Kicked | None:
 
 def _split(scheme: Partitioned, arguments: KernelArguments) -> Result:
     problem = arguments.problem
-    weights = SplitWeights(floats(scheme.kicks), floats(scheme.drifts))
+    weights = SplitWeights(numbers(scheme.kicks), numbers(scheme.drifts))
     is_held, is_long = problem.is_constrained, arguments.is_long
     memory = block(problem, is_long=is_long) if is_held else np.zeros(block_size(0, 0, 0, 0, 0))
     workspace = make_split_workspace(problem.state, problem.degrees)
@@ -298,38 +298,3 @@ def free_phase_of(problem: Problem) -> Phase:
     inputs = np.zeros(function.inputs)
     inputs[2 * problem.degrees + 1 :] = problem.parameters
     return Phase(address, data, problem.degrees, inputs, np.zeros(function.outputs), 0, 0, np.zeros(1))
-
-
-@cache
-def explicit_weights(tableau: Tableau) -> Weights:
-    """A tableau as the kernel wants it."""
-    stages, extra = tableau.stages, len(tableau.extra_c)
-    return Weights(
-        _matrix(tableau.a[1:], stages),
-        floats(tableau.b),
-        floats(tableau.c[1:]),
-        _matrix(tableau.error, stages + 1),
-        _matrix(tableau.dense, stages + 1 + extra),
-        _matrix(tableau.extra_a, stages + 1 + extra),
-        floats(tableau.extra_c),
-        int(any(len(row) > stages and row[stages] for row in tableau.error)),
-    )
-
-
-def implicit_weights(scheme: Partitioned) -> ImplicitWeights:
-    """A pair of tableaus as the kernel wants it."""
-    a, momentum_a = _matrix(scheme.a, scheme.stages), _matrix(scheme.momentum_a, scheme.stages)
-    b, c = floats(scheme.b), floats(scheme.c)
-    return ImplicitWeights(a, b, c, momentum_a, b, momentum_a @ a, floats(scheme.error))
-
-
-def floats(row: Row) -> Floats:
-    """A row of a tableau in double precision: shape (entries,)."""
-    return np.array([float(number) for number in row])
-
-
-def _matrix(rows: tuple[Row, ...], width: int) -> Floats:
-    matrix = np.zeros((len(rows), width))
-    for index, row in enumerate(rows):
-        matrix[index, : len(row)] = floats(row)
-    return matrix

@@ -14,14 +14,15 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from .method import Newmark, Partitioned, Row, Scheme, Series, Tableau
+from .method import Newmark, Partitioned, Scheme, Series, Tableau
+from .problem import Floats
+from .weights import matrix, numbers
 
 FINENESS, FARTHEST = 0.01, 20.0
 ROUNDING = 1e-9  # of a growth that is 1 on paper
 FIRST, LAST, STEPS = 1e-3, 1e3, 1200  # of h times the largest |λ|, looked at in even ratios
 
 Complexes = NDArray[np.complex128]
-Floats = NDArray[np.float64]
 
 
 @singledispatch
@@ -36,7 +37,7 @@ def growth(scheme: object, _z: Complexes) -> Floats:
 @growth.register
 def _of_tableau(scheme: Tableau, z: Complexes) -> Floats:
     """|R(z)|, R(z) = 1 + z bᵀ k with kᵢ = 1 + z Σ aᵢⱼ kⱼ, stage by stage"""
-    a, b = _square(scheme.a, scheme.stages), _line(scheme.b)
+    a, b = matrix(scheme.a, scheme.stages), numbers(scheme.b)
     derivatives: list[NDArray[Any]] = []
     for row in a:
         derivatives.append(1.0 + z * sum((weight * k for weight, k in zip(row, derivatives, strict=False)), 0.0 * z))
@@ -56,7 +57,7 @@ def _of_series(scheme: Series, z: Complexes) -> Floats:
 def _of_pair(scheme: Partitioned, z: Complexes) -> Floats:
     """From the stages Q = x 𝟙 + A V, V = ẋ 𝟙 + Â F, F = 2 Re(z) V − |z|² Q, with h = 1."""
     s, z = scheme.stages, np.asarray(z)[..., None, None]
-    a, hat, b = _square(scheme.a, s), _square(scheme.momentum_a, s), _line(scheme.b)
+    a, hat, b = matrix(scheme.a, s), matrix(scheme.momentum_a, s), numbers(scheme.b)
     damping, square = 2.0 * z.real, np.abs(z) ** 2
     system = np.eye(s) - hat @ (damping * np.eye(s) - square * a)
     start = np.stack([-square[..., 0] * hat.sum(axis=1), np.ones((*z.shape[:-2], s))], axis=-1)  # of V, by x and by ẋ
@@ -102,17 +103,6 @@ def real_stability(scheme: Scheme) -> float:
     places = np.arange(FINENESS, FARTHEST, FINENESS)
     unstable = places[growth(scheme, -places.astype(np.complex128)) > 1.0 + ROUNDING]
     return 0.99 * float(unstable[0] if unstable.size else FARTHEST)
-
-
-def _square(rows: tuple[Row, ...], size: int) -> Floats:
-    matrix = np.zeros((size, size))
-    for index, row in enumerate(rows):
-        matrix[index, : len(row)] = _line(row)
-    return matrix
-
-
-def _line(row: Row) -> Floats:
-    return np.array([float(number) for number in row])
 
 
 def _radius(matrices: Floats) -> Floats:
