@@ -17,13 +17,12 @@ import numpy as np
 from scipy.integrate import solve_ivp
 from tests.simulation.scenes import scene
 
-from deltaq.lab.orbits import ORDER, TOLERANCE
 from deltaq.language.parser import parse
 from deltaq.mechanics.scene import Scene
 from deltaq.model.observables import Observables
 from deltaq.simulation.problem import Floats
 from deltaq.simulation.run import Steps
-from deltaq.simulation.section import Surface, follow
+from deltaq.simulation.section import ORDER, TOLERANCE, Surface, follow
 from deltaq.simulation.service import problem_of
 
 SPAN, FEW = 300.0, 4  # seconds; motions that SciPy gets, for it takes long

@@ -11,7 +11,6 @@ from scipy.integrate import quad, solve_ivp
 from scipy.optimize import brentq
 from tests.simulation.scenes import scene
 
-from deltaq.lab.orbits import ORDER, TOLERANCE
 from deltaq.language.parser import parse
 from deltaq.mechanics.scene import Scene
 from deltaq.model.observables import Observables
@@ -19,7 +18,7 @@ from deltaq.simulation.kernels.motion import FINE, NOT_FINITE, TOO_LARGE
 from deltaq.simulation.march import GOES_ON
 from deltaq.simulation.problem import Floats
 from deltaq.simulation.run import Steps
-from deltaq.simulation.section import Crossings, Standing, Surface, follow
+from deltaq.simulation.section import ORDER, TOLERANCE, Crossings, Standing, Surface, follow
 from deltaq.simulation.service import problem_of
 
 STEPS = Steps(10.0, TOLERANCE, order=ORDER)

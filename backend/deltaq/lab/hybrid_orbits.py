@@ -28,13 +28,13 @@ from ..simulation.march import Truths
 from ..simulation.outcome import outcome_of
 from ..simulation.problem import Floats, Problem
 from ..simulation.run import Run, Steps
-from ..simulation.section import ZERO, Brackets, Surface, refined
+from ..simulation.section import LARGEST_STEP, ORDER, TOLERANCE, ZERO, Brackets, Surface, refined
 from ..simulation.transitions import with_signs
 from .interpolation import quintics
-from .orbits import LARGEST, ORDER, PAUSE, TOLERANCE, Orbit, errors_between
+from .orbits import LARGEST, PAUSE, Orbit, errors_between
 from .plane import Section
 
-LARGEST_STEP, APART = 0.05, 1.2  # over the span; those of a motion over those of its twin
+APART = 1.2  # the steps of a motion over those of its twin
 LEAST, MOST = 2000, 400_000  # samples of a motion
 PER_STEP, PER_PERIOD = 64, 96  # samples of a motion, at least
 TOUCHING = 1e-12  # a gap, by which a start may be behind a contact

@@ -21,12 +21,10 @@ from ..simulation.outcome import outcome_of
 from ..simulation.pieces import Pieces
 from ..simulation.problem import Floats, Problem
 from ..simulation.run import Steps
-from ..simulation.section import Crossings, Standing, follow
+from ..simulation.section import LARGEST_STEP, ORDER, TOLERANCE, Crossings, Standing, follow, nearest
 from ..vocabulary import RungStatus
 from .plane import Section
 
-TOLERANCE, ORDER = 1e-16, 36
-LARGEST_STEP = 0.05  # over the span
 TOGETHER = 64  # orbits that are followed side by side
 FACTOR, ROUNDING = 4.0, 2.0**-51  # of the difference of two runs that are both as wrong; of a point by itself
 LOST = 1e-3  # of the picture: a point that is farther from where it belongs stands elsewhere
@@ -35,7 +33,6 @@ FEW = 20  # points that tell nothing of how errors grow
 GROWS = 1e-12  # of the picture, times the square of the number of points: more than regular motions lose
 LARGEST = 1e100  # on an axis
 ONE_POINT = 1e-9  # of the distance from the origin
-MEETS = 1e-9  # |h| over its scale, below which a motion is in the plane all the time
 
 
 @dataclass(frozen=True)
@@ -134,14 +131,12 @@ def errors_between(section: Section, mine: Floats, seen: Floats, theirs: Floats,
     if not len(theirs) or not len(mine):
         return np.full(len(mine), math.inf)
     times, others = mine[:, -1], theirs[:, -1]
-    after = np.minimum(np.searchsorted(others, times), len(others) - 1)
-    before = np.maximum(after - 1, 0)
-    nearest = np.where(np.abs(others[before] - times) <= np.abs(others[after] - times), before, after)
-    apart = np.abs(other[nearest, :2] - seen[:, :2])
+    which = nearest(times, others)
+    apart = np.abs(other[which, :2] - seen[:, :2])
     for column, turns in enumerate(section.turns):
         if turns:
             apart[:, column] = np.minimum(apart[:, column], math.tau - apart[:, column])
     sizes = np.maximum(1.0, np.abs(seen[:, :2]).max(axis=1))
     spacing = float(np.median(np.diff(times))) if len(times) > 1 else math.inf
-    is_paired = np.abs(others[nearest] - times) <= 0.25 * spacing
+    is_paired = np.abs(others[which] - times) <= 0.25 * spacing
     return np.where(is_paired, FACTOR * apart.max(axis=1) / sizes + ROUNDING, math.inf)

@@ -29,16 +29,13 @@ from .outcome import Number, outcome_of
 from .problem import Floats, Problem
 from .rounding import short
 from .run import Steps
-from .section import Crossings, Standing, Surface, follow
+from .section import LARGEST_STEP, ORDER, STAYS, TOLERANCE, Crossings, Standing, Surface, follow, nearest
 
-TOLERANCE, ORDER = 1e-16, 36
-LARGEST_STEP = 0.05  # over the span
 MOST_STEPS = 20_000  # of one motion: one that comes close to a pole would keep all others waiting
 FACTOR, ROUNDING = 6.0, 2.0**-51  # of the difference of two runs that are both as wrong; of a point by itself
 GRAZES = 0.1  # |ḣ| over that of most points, below which a point is as wrong as h is slow
 NEAR = 0.25  # of the time between points: what is farther away is another point
 LOST = 0.1  # an error this large, absolute below 1 and relative above, leaves no digit
-STAYS = 1e-9  # |h| over its scale, below which a motion is in the section all the time
 
 
 @dataclass(frozen=True)
@@ -162,10 +159,8 @@ def _errors(mine: Floats, speeds: Floats, rounding: Floats, theirs: Floats) -> F
     if not len(mine) or not len(theirs):
         return errors
     times, others = mine[:, -1], theirs[:, -1]
-    after = np.minimum(np.searchsorted(others, times), len(others) - 1)
-    before = np.maximum(after - 1, 0)
-    nearest = np.where(np.abs(others[before] - times) <= np.abs(others[after] - times), before, after)
-    apart, sizes = np.abs(theirs[nearest] - mine), np.maximum(1.0, np.abs(mine[:, :-1]))
+    which = nearest(times, others)
+    apart, sizes = np.abs(theirs[which] - mine), np.maximum(1.0, np.abs(mine[:, :-1]))
     gaps = np.diff(times, prepend=-np.inf, append=np.inf)
     is_near = apart[:, -1] <= NEAR * np.minimum(np.minimum(gaps[:-1], gaps[1:]), max(times[-1], 1.0))
     fast, of_states = np.abs(speeds), (apart[:, :-1] / sizes).max(axis=1)

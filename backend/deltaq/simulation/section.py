@@ -20,6 +20,9 @@ from .march import Gone, Integers, March, Polynomials, Truths
 from .problem import Floats, Problem
 from .run import Steps
 
+TOLERANCE, ORDER = 1e-16, 36  # local, and of the series, of motions that are followed to rounding
+LARGEST_STEP = 0.05  # of these, over the span
+STAYS = 1e-9  # |h| over its scale, below which a motion is in the surface all the time
 PARTS = 4  # of a step, at whose ends the plane's function is looked at
 AT_ONCE = 256  # crossings whose roots are sought together
 ROUNDS = 8  # of some steps of all motions, after which what was found is told
@@ -187,6 +190,16 @@ class _Places:
         return _Places(self.step[which], self.lane[which], self.brackets.chosen(which))
 
 
+def nearest(times: Floats, others: Floats) -> Integers:
+    """For each time the number of the other time next to it, the earlier of two as near: shape (times,).
+
+    Both ascend; of `others`, shape (others,), there is at least one.
+    """
+    after = np.minimum(np.searchsorted(others, times), len(others) - 1)
+    before = np.maximum(after - 1, 0)
+    return np.where(np.abs(others[before] - times) <= np.abs(others[after] - times), before, after)
+
+
 class _Search:
     """Looks at each step of all motions and keeps where they cross, up to so many times."""
 
@@ -251,8 +264,7 @@ class _Search:
 
         Where a slope at an end goes against the change it may do so at a pole, which would count as a crossing.
         """
-        shift = self.surface.shift(0.5 * (seen.values[:, :-1] + seen.values[:, 1:]))
-        left, right = seen.values[:, :-1] - shift, seen.values[:, 1:] - shift
+        left, right, shift = self._sides(seen)
         at = np.nonzero(self.surface.is_crossed(left, right) & seen.taken[:, None])
         found = self._places(seen, at, *seen.ends(*at), left[at], right[at], shift[at])
         change, before, behind = right[at] - left[at], seen.slopes[:, :-1][at], seen.slopes[:, 1:][at]
@@ -261,6 +273,12 @@ class _Search:
             return found
         is_odd[is_odd] = ~_root_of(found.brackets.chosen(is_odd), self.surface)[1]
         return found.chosen(~is_odd)
+
+    def _sides(self, seen: _Looked) -> tuple[Floats, Floats, Floats]:
+        """h at the beginnings and ends of all parts, less the whole turns next to it, and these."""
+        left, right = seen.values[:, :-1], seen.values[:, 1:]
+        shift = self.surface.shift(0.5 * (left + right))
+        return left - shift, right - shift, shift
 
     def _places(self, seen: _Looked, at: tuple[Integers, ...], *arrays: Floats) -> _Places:
         """Brackets in parts of steps of lanes, as `at` tells."""
@@ -274,8 +292,7 @@ class _Search:
         Where the cubic's extremum is near zero or behind it, or the tangents at both ends meet there, which is as far
         as a kink can go, h itself decides; both halves may be crossings.
         """
-        shift = self.surface.shift(0.5 * (seen.values[:, :-1] + seen.values[:, 1:]))
-        left, right = seen.values[:, :-1] - shift, seen.values[:, 1:] - shift
+        left, right, shift = self._sides(seen)
         turned = (left * right > 0.0) & (left * seen.slopes[:, :-1] < 0.0) & (right * seen.slopes[:, 1:] > 0.0)
         step, part, lane = np.nonzero(turned & seen.taken[:, None])
         if not len(step):

@@ -22,7 +22,7 @@ from ...model.modes import modes_of
 from ...simulation.integration import Flag
 from ...simulation.problem import Floats
 from ...simulation.rounding import rounded as rounded_to
-from ...simulation.section import path_of
+from ...simulation.section import STAYS, path_of
 from ...simulation.service import require_no_event
 from ..charts.poincare_section import charts
 from ..experiment import Experiment
@@ -30,7 +30,7 @@ from ..hybrid_orbits import LEAST, HybridMotions, clear_of_contacts
 from ..hybrid_orbits import followed as hybrid_orbits
 from ..hybrid_orbits import path_of as path_of_run
 from ..minimal_subject import FreeSubject, minimal_subject_of
-from ..orbits import LOST, MEETS, TOGETHER, Orbit, extent_of, followed, steps_of
+from ..orbits import LOST, TOGETHER, Orbit, extent_of, followed, steps_of
 from ..period import period
 from ..plane import Section, observables_of, section_of
 from ..report import Document, Report, rounded, significant
@@ -137,7 +137,7 @@ def _require_points(asked: _Asked, orbits: Sequence[Orbit]) -> None:
     if all(orbit.status != "ok" and not len(orbit.rows) for orbit in orbits):
         raise RequestError(Mistake("no-motion"))
     told: dict[str, str | float] = {"plane": asked.section.plane.text[:80], "t_end": asked.request.t_end}
-    if all(orbit.reach <= MEETS * asked.scale for orbit in orbits):
+    if all(orbit.reach <= STAYS * asked.scale for orbit in orbits):
         raise RequestError(Mistake("section-plane-contains", "/plane", parameters=told))
     start = asked.section.at(np.column_stack([asked.states[:1], np.zeros(1)]))[0, :2]
     for value, name, axis in zip(start, ("horizontal", "vertical"), asked.section.axes, strict=True):
