@@ -53,7 +53,7 @@ def _reference(
 
 def _states(solution: Solution) -> Iterator[dict[str, float]]:
     """Parameters as the scene states them; coordinates near where it starts, with rates of their own."""
-    stated = {p.name: p.value for p in solution.scene.parameters}
+    stated = solution.scene.parameter_values
     # A parameter that is 1 hides its power: the last states have other values.
     other = {p.name: round(p.value * (1.3 + 0.1 * k), 3) for k, p in enumerate(solution.scene.parameters)}
     sampler = Sampler(solution)

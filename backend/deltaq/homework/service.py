@@ -44,7 +44,7 @@ def _symbols(workbook: Workbook) -> list[Document]:
     """What an answer may speak of: names with their LaTeX, for a keyboard."""
     scene = workbook.scene
     units = {c.name: c.unit for c in scene.coordinates} | {p.name: p.unit for p in scene.parameters}
-    values = {p.name: p.value for p in scene.parameters}
+    values = scene.parameter_values
     return [
         {"name": s.name, "latex": s.typeset, "kind": s.kind, "unit": units.get(s.name, ""), "value": values.get(s.name)}
         for s in scene.names.symbols

@@ -186,7 +186,7 @@ def _shifted(scene: Scene, variant: Variant) -> Scene:
         for name, place in zeros.items()
     )
     elements = tuple(_counted(element, variant, zeros) for element in told.drawing.elements)
-    values = {p.name: p.value for p in scene.parameters}
+    values = scene.parameter_values
     return replace(
         told,
         coordinates=tuple(_moved(c, variant.shift_of.get(c.name), values) for c in told.coordinates),
@@ -258,7 +258,7 @@ def _scaled(scene: Scene, variant: Variant) -> Scene:
     if not factors:
         return scene
     told = _exchanged(scene, Exchange(trees={name: scaled(factor, Name(name)) for name, factor in factors.items()}))
-    values = {p.name: p.value for p in scene.parameters}
+    values = scene.parameter_values
     elements = tuple(_sized(element, factors.keys() & values.keys(), values) for element in scene.drawing.elements)
     return replace(
         told,

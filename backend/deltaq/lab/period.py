@@ -26,7 +26,7 @@ def period(scene: Scene, parameters: Mapping[str, float] | None = None) -> float
     Raises SceneError `not-periodic` where the time stands elsewhere or the frequencies have no common one, and
     `no-period` where nothing depends on the time.
     """
-    values = {parameter.name: parameter.value for parameter in scene.parameters} | dict(parameters or {})
+    values = scene.parameter_values | dict(parameters or {})
     return common_period(tuple(clocks(scene)), values)
 
 

@@ -126,7 +126,7 @@ def _require_values(subject: Subject, request: BifurcationRequest) -> None:
 def _drive(request: BifurcationRequest, subject: Subject, values: Floats) -> Callable[[float], float]:
     """The period of what drives the scene, over the parameter. Raises InputError where it has none."""
     name, given = request.sweep.parameter, request.period.strip()
-    known = {one.name: one.value for one in subject.scene.parameters}
+    known = subject.scene.parameter_values
     if given:
         with inside("/period"):
             tree = parse(given, subject.scene.names).tree

@@ -32,7 +32,7 @@ def _points(scene: Scene) -> Iterator[Mapping[str, float]]:
     source = random.Random(1)
     for number in range(POINTS):
         reach = REACH if number else 0.0
-        point = {parameter.name: parameter.value for parameter in scene.parameters} | {"t": abs(reach)}
+        point = scene.parameter_values | {"t": abs(reach)}
         for c in scene.coordinates:
             point[c.name] = c.value + source.uniform(-reach, reach)
             point[spell_rate(c.name, 1)] = c.rate + source.uniform(-reach, reach)

@@ -42,7 +42,7 @@ def gap_problems(scene: Scene) -> Iterator[Problem]:
 
 def _lengths(scene: Scene) -> Iterator[Problem]:
     """A rod without length has no direction in which its force could act."""
-    start = {p.name: p.value for p in scene.parameters} | {c.name: c.value for c in scene.coordinates} | {"t": 0.0}
+    start = scene.stated_values
     for index, constraint in enumerate(scene.constraints):
         if isinstance(constraint, DistanceConstraint) and (length := evaluate(constraint.length.tree, start)) <= 0:
             yield Problem("length-not-positive", f"/constraints/{index}/length", parameters={"value": f"{length:g}"})

@@ -27,7 +27,7 @@ NOTHING = 1e-7  # the differences are good to about 1e-10
 
 def inertia_problems(scene: Scene) -> Iterator[Problem]:
     """Bodies whose mass is not positive, and coordinates that move no mass of their own."""
-    values = {p.name: p.value for p in scene.parameters} | {c.name: c.value for c in scene.coordinates} | {"t": 0.0}
+    values = scene.stated_values
     yield from _varying(scene)
     light = [problem for index, body in enumerate(scene.bodies) for problem in _light(index, body, values)]
     if light:
@@ -46,7 +46,7 @@ def moment_problems(scene: Scene) -> Iterator[Problem]:
     The equations of motion make sense all the same.
     Source: Landau, Lifshitz, Mechanics, 3rd ed., §32.
     """
-    values = {p.name: p.value for p in scene.parameters} | {c.name: c.value for c in scene.coordinates} | {"t": 0.0}
+    values = scene.stated_values
     for index, body in enumerate(scene.bodies):
         for part in body.kinetics:
             if isinstance(part, Rotation) and len(part.inertia) == 3 and _is_of_no_body(tensor(part, values)):
@@ -131,7 +131,7 @@ def _singular(scene: Scene, columns: tuple[int, ...]) -> Iterator[Problem]:
 def _points(scene: Scene) -> Iterator[Point]:
     """Random configurations, away from the symmetric ones that initial values tend to be."""
     source = random.Random(1)
-    parameters = {parameter.name: parameter.value for parameter in scene.parameters}
+    parameters = scene.parameter_values
     for _ in range(POINTS):
         coordinates = {c.name: c.value + source.uniform(0.2, 0.9) for c in scene.coordinates}
         yield parameters | coordinates | {"t": source.uniform(0.1, 1.0)}

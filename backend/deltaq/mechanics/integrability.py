@@ -29,7 +29,7 @@ Function = Callable[[float], float]
 
 def integrability_problems(scene: Scene) -> Iterator[Problem]:
     """The densities of continua and distributed forces that cannot be integrated along a material coordinate."""
-    values = {p.name: p.value for p in scene.parameters} | {c.name: c.value + 0.3 for c in scene.coordinates}
+    values = scene.parameter_values | {c.name: c.value + 0.3 for c in scene.coordinates}
     values |= {spell_rate(c.name, 1): c.rate + 0.3 for c in scene.coordinates} | {"t": 0.3}
     for key, things in {"bodies": scene.bodies, "loads": scene.loads}.items():
         for index, thing in enumerate(things):

@@ -41,7 +41,7 @@ def motions_matrix(scene: Scene, point: Point) -> Matrix | None:
 
 def total_mass(scene: Scene) -> float:
     """The mass of all bodies at the scene's own values of the parameters."""
-    values = {parameter.name: parameter.value for parameter in scene.parameters}
+    values = scene.parameter_values
     return sum(_mass(part, values) for body in scene.bodies for part in body.kinetics)
 
 

@@ -93,7 +93,7 @@ class Scene:
         if found:
             yield Problem("restitution-varies", pointer, parameters={"name": found[0]})
             return
-        value = evaluate(event.restitution.tree, {parameter.name: parameter.value for parameter in self.parameters})
+        value = evaluate(event.restitution.tree, self.parameter_values)
         if not 0.0 <= value <= 1.0:
             yield Problem("restitution-outside", pointer, parameters={"value": f"{value:g}"})
 
@@ -220,9 +220,19 @@ class Scene:
         return independence(self.conditions, [coordinate.name for coordinate in self.free], self.start)
 
     @property
+    def parameter_values(self) -> dict[str, float]:
+        """The value of each parameter by name."""
+        return {parameter.name: parameter.value for parameter in self.parameters}
+
+    @property
+    def stated_values(self) -> dict[str, float]:
+        """Parameters and coordinates at t = 0 by name, all as they are stated: `start` has guided ones as they move."""
+        return self.parameter_values | {c.name: c.value for c in self.coordinates} | {"t": 0.0}
+
+    @property
     def start(self) -> dict[str, float]:
         """Parameters, coordinates and rates at t = 0 by name; guided ones as their guides say, their rates left out."""
-        known = {parameter.name: parameter.value for parameter in self.parameters} | {"t": 0.0}
+        known = self.parameter_values | {"t": 0.0}
         guided = {guide.coordinate: evaluate(guide.value.tree, known) for guide in self.guides}
         rates = {spell_rate(coordinate.name, 1): 0.0 for coordinate in self.coordinates}
         return known | {coordinate.name: coordinate.value for coordinate in self.coordinates} | guided | rates

@@ -59,7 +59,7 @@ def expressions(scene: Scene) -> Iterator[Field]:
 
 def _negative_friction(scene: Scene) -> Iterator[Problem]:
     """Friction that would push, where the motion begins."""
-    values = {p.name: p.value for p in scene.parameters} | {c.name: c.value for c in scene.coordinates} | {"t": 0.0}
+    values = scene.stated_values
     values |= {spell_rate(c.name, 1): c.rate for c in scene.coordinates}
     for index, load in enumerate(scene.loads):
         for part in (part for part in (load.contributions(scene.places, scene.bodies)) if isinstance(part, Friction)):

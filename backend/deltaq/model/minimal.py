@@ -92,7 +92,7 @@ def _begun(scene: Scene, columns: Mapping[str, Floats], conditions: tuple[Expr, 
     unsolved = Unsolved(conditions, free, lengths, scene.dimension, is_down=scene.drawing.vertical == "down")
     kept = np.linspace(0, len(columns[CLOCK]) - 1, min(SAMPLES, len(columns[CLOCK]))).astype(int)
     thinned = {name: column[kept] for name, column in columns.items()}
-    constants = {each.name: each.value for each in scene.parameters}
+    constants = scene.parameter_values
     return _Branch(unsolved, Solution(symbols, {}, (), {}), thinned, constants)
 
 

@@ -63,7 +63,7 @@ def _periods(subject: Subject, first: Axis, second: Axis) -> np.ndarray:
 
     Raises SceneError where the scene is not periodic, and RequestError where it is not at one value of an axis.
     """
-    values = {p.name: p.value for p in subject.scene.parameters}
+    values = subject.scene.parameter_values
     with inside("/scene"):
         used = {node.name for clock in clocks(subject.scene) for node in walk(clock) if isinstance(node, Name)}
         columns = first.values if first.parameter in used else first.values[:1]

@@ -22,5 +22,5 @@ def particles(scene: Scene) -> dict[str, float]:
     """The masses of the bodies by name where all of them are particles, else nothing."""
     if not all(isinstance(body, Particle) for body in scene.bodies):
         return {}
-    values = {parameter.name: parameter.value for parameter in scene.parameters}
+    values = scene.parameter_values
     return {body.name: evaluate(body.mass.tree, values) for body in scene.bodies if isinstance(body, Particle)}

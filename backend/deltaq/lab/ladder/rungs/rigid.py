@@ -110,7 +110,7 @@ def _at_rest(context: SimplificationContext, length: Node) -> float:
     """The length at rest, the mean where guides move its ends."""
     scene, mean = context.scene, context.mean
     known = {each.name: context.centre.get(each.name, each.value) for each in scene.coordinates}
-    values = {each.name: each.value for each in scene.parameters} | known | {"t": mean.times}
+    values = scene.parameter_values | known | {"t": mean.times}
     guided = {each.coordinate: _sampled(each.value.tree, values) for each in scene.guides}
     return float(mean.weights @ _sampled(length, values | guided))
 
@@ -126,7 +126,7 @@ def _sampled(node: Node, values: Mapping[str, Floats | float]) -> Floats:
 
 def _back(scene: Scene, name: str, value: Expression) -> Back:
     """The coordinate that was given up, from the others; its rate by a difference along the motion."""
-    constants = {each.name: each.value for each in scene.parameters}
+    constants = scene.parameter_values
 
     def at(motion: Motion, ahead: float) -> Floats:
         moved = {key: motion.values[key] + ahead * motion.rates[key] for key in motion.values}

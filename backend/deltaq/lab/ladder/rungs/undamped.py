@@ -88,7 +88,7 @@ def _point(scene: Scene, source: random.Random) -> dict[str, float]:
     moving = {each.name: each.value + source.uniform(-1, 1) for each in scene.coordinates}
     rates = {f"dot({name})": source.uniform(-2, 2) for name in moving}
     material = {each.name: source.uniform(0, 1) for each in scene.material}
-    return {each.name: each.value for each in scene.parameters} | moving | rates | material | {"t": source.random()}
+    return scene.parameter_values | moving | rates | material | {"t": source.random()}
 
 
 def _resting(scene: Scene, point: Mapping[str, float]) -> dict[str, float]:
