@@ -15,20 +15,17 @@ from .expression import Expression
 from .tree import (
     Call,
     Differential,
-    Equation,
     Name,
     Negation,
     Node,
     Number,
     PartialDerivative,
-    Power,
     Product,
     Quotient,
     Rate,
     Sum,
-    TimeDerivative,
+    TreeAlgebra,
     Variation,
-    Vector,
     fold,
 )
 
@@ -71,14 +68,11 @@ class Shift:
 
 
 @dataclass(frozen=True)
-class Exchange:
+class Exchange(TreeAlgebra):
     """Names for which other expressions are put: coordinates by shifts, parameters and zeros by trees."""
 
     shifts: Mapping[str, Shift] = field(default_factory=dict)
     trees: Mapping[str, Node] = field(default_factory=dict)
-
-    def number(self, value: Fraction) -> Node:
-        return Number(value)
 
     def name(self, name: str) -> Node:
         return self.shifts[name].node if name in self.shifts else self.trees.get(name, Name(name))
@@ -102,16 +96,10 @@ class Exchange:
     def product(self, factors: tuple[Node, ...]) -> Node:
         return ZERO if ZERO in factors else Product(factors)
 
-    def quotient(self, numerator: Node, denominator: Node) -> Node:
-        return Quotient(numerator, denominator)
-
     def negation(self, operand: Node) -> Node:
         if isinstance(operand, Negation):
             return operand.operand
         return operand if operand == ZERO else Negation(operand)
-
-    def power(self, base: Node, exponent: Node) -> Node:
-        return Power(base, exponent)
 
     def call(self, function: str, arguments: tuple[Node, ...]) -> Node:
         if function in ("sin", "cos"):
@@ -119,9 +107,6 @@ class Exchange:
                 if arguments == (shift.node,) and shift.length == ZERO:
                     return shift.wave(function)
         return Call(function, arguments)
-
-    def time_derivative(self, operand: Node) -> Node:
-        return TimeDerivative(operand)
 
     def partial_derivative(self, operand: Node, variable: Node) -> Node:
         """∂/∂(s q + c) is s ∂/∂q for a sign s, and ∂/∂(f p) is ∂/∂p divided by f."""
@@ -133,12 +118,6 @@ class Exchange:
             case Product((Number(factor), inner)):
                 return Quotient(PartialDerivative(operand, inner), Number(factor))
         return PartialDerivative(operand, variable)
-
-    def vector(self, components: tuple[Node, ...]) -> Node:
-        return Vector(components)
-
-    def equation(self, left: Node, right: Node) -> Node:
-        return Equation(left, right)
 
 
 def exchanged(expression: Expression, exchange: Exchange) -> Expression:

@@ -53,6 +53,7 @@ __all__ = [
     "Span",
     "Sum",
     "TimeDerivative",
+    "TreeAlgebra",
     "Variation",
     "Vector",
     "children",
@@ -126,6 +127,70 @@ class NumbersOnly:
     def equation(self, _left: object, _right: object) -> NoReturn:
         """Raises ValueError."""
         raise ValueError("an equation has no value")
+
+
+class TreeAlgebra:
+    """The algebra whose values are trees: folding makes the same tree once more; what changes trees overrides some."""
+
+    def number(self, value: Fraction) -> Node:
+        """The number."""
+        return Number(value)
+
+    def name(self, name: str) -> Node:
+        """The name."""
+        return Name(name)
+
+    def rate(self, name: str, order: int) -> Node:
+        """The rate of a coordinate."""
+        return Rate(name, order)
+
+    def variation(self, name: str, order: int) -> Node:
+        """The variation of a coordinate, or its rate."""
+        return Variation(name, order)
+
+    def differential(self, name: str) -> Node:
+        """The differential of a coordinate."""
+        return Differential(name)
+
+    def sum(self, terms: tuple[Node, ...]) -> Node:
+        """The sum of the trees."""
+        return Sum(terms)
+
+    def product(self, factors: tuple[Node, ...]) -> Node:
+        """The product of the trees."""
+        return Product(factors)
+
+    def quotient(self, numerator: Node, denominator: Node) -> Node:
+        """One tree over the other."""
+        return Quotient(numerator, denominator)
+
+    def negation(self, operand: Node) -> Node:
+        """The tree with a minus."""
+        return Negation(operand)
+
+    def power(self, base: Node, exponent: Node) -> Node:
+        """One tree to the power of the other."""
+        return Power(base, exponent)
+
+    def call(self, function: str, arguments: tuple[Node, ...]) -> Node:
+        """A function of the trees."""
+        return Call(function, arguments)
+
+    def time_derivative(self, operand: Node) -> Node:
+        """The tree with a dot."""
+        return TimeDerivative(operand)
+
+    def partial_derivative(self, operand: Node, variable: Node) -> Node:
+        """The derivative of one tree by the other."""
+        return PartialDerivative(operand, variable)
+
+    def vector(self, components: tuple[Node, ...]) -> Node:
+        """A vector of the trees."""
+        return Vector(components)
+
+    def equation(self, left: Node, right: Node) -> Node:
+        """An equation between the trees."""
+        return Equation(left, right)
 
 
 def fold(node: Node, algebra: Algebra[T]) -> T:

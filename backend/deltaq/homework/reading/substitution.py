@@ -10,22 +10,17 @@ from typing import NoReturn
 from ...errors import ExpressionError, Problem
 from ...language.bounds import MAX_NODES, check_bounds
 from ...language.tree import (
-    Call,
     Differential,
-    Equation,
     Name,
-    Negation,
     Node,
     Number,
     PartialDerivative,
-    Power,
     Product,
-    Quotient,
     Rate,
     Sum,
     TimeDerivative,
+    TreeAlgebra,
     Variation,
-    Vector,
     fold,
     walk,
 )
@@ -49,14 +44,11 @@ def _refuse(code: str, **parameters: str | int) -> NoReturn:
 
 
 @dataclass(frozen=True)
-class _Substitution:
-    """The algebra whose values are trees again."""
+class _Substitution(TreeAlgebra):
+    """Trees in which names stand for others: `coordinates` are what these may be varied by."""
 
     trees: Mapping[str, Node]
     coordinates: tuple[str, ...]
-
-    def number(self, value: Fraction) -> Node:
-        return Number(value)
 
     def name(self, name: str) -> Node:
         return self.trees.get(name, Name(name))
@@ -85,34 +77,7 @@ class _Substitution:
             _refuse("differential-of-constant", name=name)
         return Differential(name)
 
-    def sum(self, terms: tuple[Node, ...]) -> Node:
-        return Sum(terms)
-
-    def product(self, factors: tuple[Node, ...]) -> Node:
-        return Product(factors)
-
-    def quotient(self, numerator: Node, denominator: Node) -> Node:
-        return Quotient(numerator, denominator)
-
-    def negation(self, operand: Node) -> Node:
-        return Negation(operand)
-
-    def power(self, base: Node, exponent: Node) -> Node:
-        return Power(base, exponent)
-
-    def call(self, function: str, arguments: tuple[Node, ...]) -> Node:
-        return Call(function, arguments)
-
-    def time_derivative(self, operand: Node) -> Node:
-        return TimeDerivative(operand)
-
     def partial_derivative(self, operand: Node, variable: Node) -> Node:
         if not isinstance(variable, Name | Rate):
             _refuse("derivative-variable", text="?")
         return PartialDerivative(operand, variable)
-
-    def vector(self, components: tuple[Node, ...]) -> Node:
-        return Vector(components)
-
-    def equation(self, left: Node, right: Node) -> Node:
-        return Equation(left, right)
