@@ -84,7 +84,7 @@ def _samples(system: System, body: str, shifts: dict[str, sp.Expr]) -> Iterator[
 
 def _turns(system: System, body: str, shifts: dict[str, sp.Expr]) -> Iterator[float]:
     """How fast a rigid body turns when the coordinates change like the shifts."""
-    still = {system.rate(q): system.zero for q in system.free}
+    still = system.zero_rates
     moved = {system.rate(q): shifts.get(q, system.zero) for q in system.free}
     (found,) = (each for each in system.scene.bodies if each.name == body)
     for part in found.kinetics:

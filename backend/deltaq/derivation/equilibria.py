@@ -213,7 +213,7 @@ def is_within(system: System, point: Mapping[str, arb]) -> bool:
 @cached_method
 def watched(system: System) -> tuple[sp.Expr, ...]:
     """The values of the events at rest."""
-    at_rest = {system.rate(q): system.zero for q in system.free}
+    at_rest = system.zero_rates
     values = (system.guided(system.expression(event.value.tree)).xreplace(at_rest) for event in system.scene.events)
     return tuple(value for value in values if not value.has(system.t))
 

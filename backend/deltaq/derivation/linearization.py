@@ -100,7 +100,7 @@ def damping_at_rest(system: System) -> sp.ImmutableMatrix:
 
 def _at_rest(system: System, slope: sp.Expr) -> sp.Expr:
     """The slope at q̇ = 0. What is 0/0 there is the limit, where that is zero: |v| vₓ has the slope 0 at rest."""
-    rest = {system.rate(q): system.zero for q in system.free}
+    rest = system.zero_rates
     value = slope.xreplace(rest)
     if not value.has(*UNDEFINED):
         return value

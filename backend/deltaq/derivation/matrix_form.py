@@ -49,7 +49,7 @@ def _rest(system: System, coordinate: str) -> sp.Expr:
 @cached_method
 def forces_at_rest(system: System) -> sp.ImmutableMatrix:
     """f(q, 0, t): what acts while nothing moves."""
-    at_rest = {system.rate(q): system.zero for q in system.free}
+    at_rest = system.zero_rates
     return system.display(forcing(system).xreplace(at_rest))
 
 

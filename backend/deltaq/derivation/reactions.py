@@ -111,7 +111,7 @@ class Reactions(Work):
     @cached_method
     def moving_term(self, condition: Condition) -> sp.Expr:
         """b = ∂g/∂t, or what of u is left without rates: how fast the constraint itself moves."""
-        still = {self.rate(q): self.zero for q in self.free}
+        still = self.zero_rates
         return self.display(self.condition_rate(condition).xreplace(still))
 
     @cached_method

@@ -69,6 +69,11 @@ class SceneSymbols:
     def zero(self) -> sp.Expr:
         return sp.Integer(0)
 
+    @property
+    def zero_rates(self) -> dict[sp.Symbol, sp.Expr]:
+        """q̇ᵢ = 0 of all free coordinates, to be put into what is asked for at rest."""
+        return {self.rate(q): self.zero for q in self.free}
+
     def fresh(self, *candidates: str) -> sp.Symbol:
         """A symbol under the first of the candidates that the scene does not have."""
         return fresh(self.scene.names, *candidates)

@@ -364,7 +364,7 @@ class Search:
         system = self.system
         if system.is_zero(change):
             return system.zero
-        still = {system.rate(q): system.zero for q in system.free}
+        still = system.zero_rates
         slopes = {system.t: change.xreplace(still)} | {
             system.q(q): diff(change, system.rate(q)).xreplace(still) for q in system.free
         }

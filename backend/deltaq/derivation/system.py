@@ -128,7 +128,7 @@ class System(Reactions):
 
     def at_rest(self, function: sp.Expr) -> sp.Expr:
         """U₀, what of a generalized potential counts as energy."""
-        return function.xreplace({self.rate(q): self.zero for q in self.free})
+        return function.xreplace(self.zero_rates)
 
     @cached_method
     def generalized_share(self, coordinate: str) -> sp.Expr:

@@ -53,10 +53,9 @@ def motions(system: System, linear: Linearization) -> tuple[Named, Named, Named]
     )
 
 
-def at_rest(system: System, linear: Linearization) -> dict[sp.Symbol, sp.Expr]:
+def at_rest(system: System, equilibrium: Equilibrium) -> dict[sp.Symbol, sp.Expr]:
     """The equilibrium with all rates zero, and the multipliers that hold it."""
-    rates = {system.rate(q): system.zero for q in system.free}
-    return {**linear.equilibrium.values, **linear.equilibrium.reactions, **rates}
+    return {**equilibrium.values, **equilibrium.reactions, **system.zero_rates}
 
 
 def place(system: System, equilibrium: Equilibrium, coordinate: str) -> Relation:

@@ -12,11 +12,11 @@ from __future__ import annotations
 import sympy as sp
 
 from ..calculus import column
-from ..formula import Equation, Explicit, Formula, MatrixTimes, Named, Partial, Plus, Quantity, Rate, Stack, Term, minus
+from ..formula import Equation, Explicit, Formula, MatrixTimes, Named, Quantity, Stack
 from ..matrix_form import forcing, mass_matrix
 from ..step import Relation, Step
 from ..system import System
-from ._outside import outside
+from ._lagrange import left_side, right_side
 from .constraint_rates import RULE as RATES
 from .constraint_rates import highest
 
@@ -25,10 +25,14 @@ RULE = "augmented-system"
 
 def apply(system: System) -> Step:
     """All laws in one line, and M, A, f and γ written out; rows of A that depend on others leave λ open."""
-    laws = [_law(system, q) for q in system.free] + [_rate_of(system, index) for index in range(len(system.conditions))]
-    right = [outside(system, q) for q in system.free] + [Explicit(system.zero)] * len(system.conditions)
+    laws = [left_side(system, q) for q in system.free] + [
+        _rate_of(system, index) for index in range(len(system.conditions))
+    ]
+    right = [right_side(system, q) for q in system.free] + [Explicit(system.zero)] * len(system.conditions)
     unknown = column((*map(system.acceleration, system.free), *(-each for each in system.multipliers)))
-    written = Equation(MatrixTimes(Explicit(augmented_matrix(system)), Explicit(unknown)), Explicit(right_side(system)))
+    written = Equation(
+        MatrixTimes(Explicit(augmented_matrix(system)), Explicit(unknown)), Explicit(augmented_right_side(system))
+    )
     parts = {
         "mass-matrix": mass_matrix(system),
         "constraint-matrix": system.constraint_matrix(),
@@ -50,15 +54,9 @@ def augmented_matrix(system: System) -> sp.ImmutableMatrix:
     return sp.ImmutableMatrix(sp.Matrix([[mass, rows.T], [rows, sp.zeros(rows.rows, rows.rows)]]))
 
 
-def right_side(system: System) -> sp.ImmutableMatrix:
+def augmented_right_side(system: System) -> sp.ImmutableMatrix:
     """[f; −γ]"""
     return column((*forcing(system), *(-system.drift_term(each) for each in system.conditions)))
-
-
-def _law(system: System, coordinate: str) -> Formula:
-    lagrangian = Named(Quantity("lagrangian"), system.lagrangian)
-    slope = Partial(lagrangian, system.rate(coordinate))
-    return Plus((Term(Rate(slope)), minus(Partial(lagrangian, system.q(coordinate)))))
 
 
 def _rate_of(system: System, index: int) -> Formula:

@@ -17,7 +17,7 @@ from ..impacts import bouncing, slopes
 from ..matrix_form import forces_at_rest
 from ..step import Relation, Step
 from ..system import System
-from ._shape import balanced, multiplier, numbers, place, shaped, valued, zero
+from ._shape import at_rest, balanced, multiplier, numbers, place, shaped, valued, zero
 from .contact_gap import RULE as GAP
 from .contact_gap import named_gap, slope_of
 
@@ -27,7 +27,7 @@ RULE = "contact-equilibrium"
 def apply(system: System, found: ContactEquilibrium, number: int) -> Step:
     """Where it is, that the contacts are closed there, the reactions that hold it, and their sign."""
     known = found.equilibrium
-    there = {**known.values, **known.reactions, **{system.rate(q): system.zero for q in system.free}}
+    there = at_rest(system, known)
     lines = (
         *(place(system, known, q) for q in system.free if system.q(q) in known.values),
         *(Relation((_at(system, found, named_gap(system, each), there), zero(1))) for each in found.contacts),

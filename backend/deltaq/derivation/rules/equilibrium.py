@@ -43,7 +43,7 @@ def _rows(system: System, laws: tuple[Formula, ...]) -> Iterator[tuple[Formula, 
 
 
 def _there(system: System, linear: Linearization, law: Formula) -> Formula:
-    there = AtEquilibrium(law, at_rest(system, linear))
+    there = AtEquilibrium(law, at_rest(system, linear.equilibrium))
     return there if linear.equilibrium.exact else Inserted(there, numbers(system))
 
 

@@ -23,7 +23,7 @@ RULE = "equilibrium-condition"
 def apply(system: System) -> Step:
     """What acts at rest, and whether it can vanish."""
     force = shaped("forcing", "vector", forcing(system))
-    at_rest = {system.rate(q): system.zero for q in system.free}
+    at_rest = system.zero_rates
     free = free_coordinates(system)
     about = {"outcome": _outcome(system), "coordinate": ", ".join(free)}
     if not system.conditions:

@@ -21,7 +21,7 @@ def apply(system: System, linear: Linearization, band: Band, number: int) -> Ste
     """Both ends, at each of which the force in one direction vanishes: the same one, where friction wins in between."""
     (name,) = system.free
     q = system.q(name)
-    here = Inserted(Named(Quantity("coordinate", name), q), {**numbers(system), **at_rest(system, linear)})
+    here = Inserted(Named(Quantity("coordinate", name), q), {**numbers(system), **at_rest(system, linear.equilibrium)})
     low, high = (_written(system, band, end) for end in (band.low, band.high))
     lines = [Relation((low, Inserted(here, numbers(system)), high), "≤")]
     forces = directions(system) or ()

@@ -12,7 +12,7 @@ from ..differential_expression import direction
 from ..formula import Equation, Explicit, Plus, Term, Times
 from ..step import Relation, Step
 from ..terms import terms_by_source
-from ._outside import outside_terms
+from ._lagrange import right_terms
 from .collected_variation import euler_expression
 
 RULE = "fundamental-lemma"
@@ -34,4 +34,4 @@ def apply(action: Action) -> Step:
 
 def factor(action: Action, coordinate: str) -> Plus:
     """∂L/∂qᵢ − d/dt ∂L/∂q̇ᵢ, and Qᵢᵈ and reactions where there are any."""
-    return Plus((*euler_expression(action, coordinate).terms, *outside_terms(action.system, coordinate)))
+    return Plus((*euler_expression(action, coordinate).terms, *right_terms(action.system, coordinate)))

@@ -12,7 +12,7 @@ from __future__ import annotations
 from ..action import Action
 from ..formula import Equation, Explicit, Formula, Plus, Term, Times
 from ..step import Relation, Step
-from ._outside import outside_terms
+from ._lagrange import right_terms
 from .functional import variation
 
 RULE = "hamilton-principle"
@@ -34,6 +34,6 @@ def other_work(action: Action) -> Plus | None:
     terms = tuple(
         Term(Times((term.formula, Explicit(action.system.variation(x)))), term.sources)
         for x in action.functions
-        for term in outside_terms(action.system, x)
+        for term in right_terms(action.system, x)
     )
     return Plus(terms) if terms else None

@@ -17,7 +17,7 @@ from ..rest_sets import KinkRest
 from ..step import Relation, Step
 from ..switches import beside
 from ..system import System
-from ._shape import numbers, place, plain_value, valued, zero
+from ._shape import at_rest, numbers, place, plain_value, valued, zero
 from .contact_gap import RULE as GAP
 from .contact_gap import named_gap
 
@@ -27,7 +27,7 @@ RULE = "kink-equilibrium"
 def apply(system: System, found: KinkRest, number: int) -> Step:
     """Where it is, that the switching functions vanish there, and the forces beside it or what balances them."""
     known = found.equilibrium
-    there = {**known.values, **known.reactions, **{system.rate(q): system.zero for q in system.free}}
+    there = at_rest(system, known)
     lines = (
         *(place(system, known, q) for q in system.free if system.q(q) in known.values),
         *(Relation((_at(system, Explicit(s), there), zero(1))) for s in found.switches),

@@ -9,12 +9,11 @@ from __future__ import annotations
 
 import sympy as sp
 
-from ..formula import Equation, Explicit, Named, Partial, Plus, Quantity, Rate, minus
-from ..formula import Term as Summand
+from ..formula import Equation, Explicit, Named, Partial, Plus, Quantity, Rate
 from ..step import Relation, Step
 from ..system import System
 from ..terms import terms_by_source
-from ._outside import outside
+from ._lagrange import left_side, right_side
 
 RULE = "equation"
 MOMENTUM, MOMENTUM_RATE, SLOPE = "momentum", "momentum-rate", "lagrangian-slope"
@@ -23,12 +22,10 @@ MOMENTUM, MOMENTUM_RATE, SLOPE = "momentum", "momentum-rate", "lagrangian-slope"
 def apply(system: System, coordinate: str) -> Step:
     """The equation of one coordinate: its three parts as substeps, then all terms on one side."""
     lagrangian = Named(Quantity("lagrangian"), system.lagrangian)
-    rate, q = system.rate(coordinate), system.q(coordinate)
-    law = Plus((Summand(Rate(Partial(lagrangian, rate))), minus(Partial(lagrangian, q))))
     terms = terms_by_source(system, coordinate)
     written = Equation(Plus(terms) if terms else Explicit(system.zero), Explicit(sp.Integer(0)))
     sources = tuple(dict.fromkeys(source for term in terms for source in term.sources))
-    line = Relation((Equation(law, outside(system, coordinate)), written), "⇔")
+    line = Relation((Equation(left_side(system, coordinate), right_side(system, coordinate)), written), "⇔")
     outcome = "constrained" if system.bound_by(coordinate) else "text"
     step = Step(RULE, coordinate, (line,), sources, {"outcome": outcome, "coordinate": coordinate})
     return step.with_substeps(*parts(system, coordinate, lagrangian))

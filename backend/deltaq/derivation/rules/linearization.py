@@ -105,7 +105,7 @@ def _slope(system: System, force: Formula, name: str, by: list[sp.Symbol]) -> Fo
 
 
 def _line(system: System, linear: Linearization, named: Named, law: Term) -> Relation:
-    there = Plus((Term(AtEquilibrium(law.formula, at_rest(system, linear)), (), law.sign),))
+    there = Plus((Term(AtEquilibrium(law.formula, at_rest(system, linear.equilibrium)), (), law.sign),))
     if linear.equilibrium.exact:
         return Relation((named, there, Explicit(named.value)))
     return Relation((named, Inserted(there, numbers(system)), Rounded(named.value)), "≈")

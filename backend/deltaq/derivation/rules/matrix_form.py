@@ -7,10 +7,11 @@ Mechanics, 2nd ed., §19.
 from __future__ import annotations
 
 from ..calculus import column
-from ..formula import Equation, Explicit, Formula, MatrixTimes, Named, Partial, Plus, Quantity, Rate, Stack, Term, minus
+from ..formula import Equation, Explicit, Formula, MatrixTimes, Named, Quantity, Stack
 from ..matrix_form import forcing, mass_matrix
 from ..step import Relation, Step
 from ..system import System
+from ._lagrange import left_side, other_force
 from ._shape import is_scalar, plain_value, shaped
 
 RULE = "matrix-form"
@@ -22,9 +23,9 @@ def apply(system: System) -> Step:
     mass = shaped("mass", "matrix", mass_matrix(system))
     force = shaped("forcing", "vector", forcing(system))
     second = Named(Quantity("accelerations-vector"), plain_value(accelerations))
-    laws = [_law(system, q) for q in system.free]
-    outside: list[Formula] = [_outside(system, q) for q in system.free]
-    law = Equation(*laws, *outside) if is_scalar(system) else Equation(Stack(tuple(laws)), Stack(tuple(outside)))
+    laws = [left_side(system, q) for q in system.free]
+    right: list[Formula] = [other_force(system, q) for q in system.free]
+    law = Equation(*laws, *right) if is_scalar(system) else Equation(Stack(tuple(laws)), Stack(tuple(right)))
     moved = Explicit(second.value) if is_scalar(system) else second
     lines = (
         Relation((law, Equation(MatrixTimes(mass, moved), force)), "⇔"),
@@ -33,13 +34,3 @@ def apply(system: System) -> Step:
     )
     sources = tuple(f"load:{load}" for load in system.load_names)
     return Step(RULE, "", lines, system.body_sources + sources)
-
-
-def _law(system: System, coordinate: str) -> Formula:
-    lagrangian = Named(Quantity("lagrangian"), system.lagrangian)
-    slope = Partial(lagrangian, system.rate(coordinate))
-    return Plus((Term(Rate(slope)), minus(Partial(lagrangian, system.q(coordinate)))))
-
-
-def _outside(system: System, coordinate: str) -> Named:
-    return Named(Quantity("nonconservative-force", coordinate), system.nonconservative_force(coordinate))

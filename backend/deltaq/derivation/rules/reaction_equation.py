@@ -10,7 +10,7 @@ from ..released import Release
 from ..step import Relation, Step
 from ..terms import terms_by_source
 from . import release as release_rule
-from ._outside import outside_terms
+from ._lagrange import right_terms
 from .lagrange_equation import parts
 
 RULE = "reaction-equation"
@@ -21,7 +21,7 @@ def apply(release: Release) -> Step:
     wider, name = release.wider, release.name
     lagrangian = Named(Quantity("lagrangian"), wider.lagrangian)
     law = (Term(Rate(Partial(lagrangian, wider.rate(name)))), minus(Partial(lagrangian, wider.q(name))))
-    others = tuple(minus(term.formula, *term.sources) for term in outside_terms(wider, name))
+    others = tuple(minus(term.formula, *term.sources) for term in right_terms(wider, name))
     terms = terms_by_source(wider, name)
     written = Plus(terms) if terms else Explicit(wider.zero)
     sources = tuple(dict.fromkeys(source for term in terms for source in term.sources))
