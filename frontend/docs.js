@@ -6,7 +6,7 @@ import { translator } from "./model/catalog.js";
 import { groupsOf } from "./model/reference.js";
 import { createSpeech } from "./model/speech.js";
 import { createStore, mover } from "./model/store.js";
-import { HOME, readPlace, startLanguage, writePlace } from "./model/url.js";
+import { readPlace, startPlace, writePlace } from "./model/url.js";
 import { api } from "./server.js";
 import { dressed } from "./view/header.js";
 import { page } from "./view/reference/page.js";
@@ -15,7 +15,7 @@ const root = /** @type {HTMLElement} */ (document.getElementById("page"));
 const dark = matchMedia("(prefers-color-scheme: dark)");
 const asked = readPlace(location.search);
 const store = createStore({
-  place: { ...HOME, theme: asked.theme, lang: startLanguage(asked.lang, navigator.languages) },
+  place: startPlace(asked, navigator.languages),
   catalog: /** @type {import("./model/types.js").Catalog} */ ({}),
   groups: /** @type {import("./model/reference.js").Group[]} */ ([]),
   version: "",

@@ -4,7 +4,7 @@ import { render } from "lit-html";
 import { translator } from "./model/catalog.js";
 import { createSamples } from "./model/start/sample.js";
 import { createStore, mover } from "./model/store.js";
-import { HOME, readPlace, startLanguage, writePlace } from "./model/url.js";
+import { readPlace, startPlace, writePlace } from "./model/url.js";
 import { api } from "./server.js";
 import { everyFrame } from "./view/frames.js";
 import { dressed } from "./view/header.js";
@@ -16,7 +16,7 @@ const still = matchMedia("(prefers-reduced-motion: reduce)");
 const dark = matchMedia("(prefers-color-scheme: dark)");
 const asked = readPlace(location.search);
 const store = createStore({
-  place: { ...HOME, theme: asked.theme, lang: startLanguage(asked.lang, navigator.languages) },
+  place: startPlace(asked, navigator.languages),
   catalog: /** @type {import("./model/types.js").Catalog} */ ({}),
   scenes: /** @type {import("./model/types.js").SceneEntry[]} */ ([]),
 });

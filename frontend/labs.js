@@ -22,7 +22,7 @@ import { asTyped, completed, documentIn, fragmentOf, OWN, readDraft } from "./mo
 import { writeChanges } from "./model/values.js";
 import { createStore, mover } from "./model/store.js";
 import { caveatsOf } from "./model/trajectory.js";
-import { HOME, readPlace, startLanguage, writePlace } from "./model/url.js";
+import { HOME, readPlace, startPlace, writePlace } from "./model/url.js";
 import { api, send } from "./server.js";
 import { offer } from "./view/files.js";
 import { isGuest } from "./view/guest.js";
@@ -41,7 +41,7 @@ const dark = matchMedia("(prefers-color-scheme: dark)");
 const still = matchMedia("(prefers-reduced-motion: reduce)");
 const asked = readPlace(location.search);
 const store = createStore({
-  place: { ...HOME, theme: asked.theme, lang: startLanguage(asked.lang, navigator.languages) },
+  place: startPlace(asked, navigator.languages),
   catalog: /** @type {import("./model/types.js").Catalog} */ ({}),
   scenes: /** @type {import("./model/types.js").SceneEntry[]} */ ([]),
   dial: { tolerance: 1e-6, step: 0 },

@@ -19,7 +19,7 @@ import { plainly } from "./model/prose.js";
 import { addressOf, COURSE } from "./model/start/course.js";
 import { createLater } from "./model/later.js";
 import { createStore, mover } from "./model/store.js";
-import { HOME, readPlace, startLanguage, writePlace } from "./model/url.js";
+import { HOME, readPlace, startPlace, writePlace } from "./model/url.js";
 import { api } from "./server.js";
 import { styled } from "./view/bring.js";
 import { offer, toClipboard } from "./view/files.js";
@@ -38,7 +38,7 @@ const dark = matchMedia("(prefers-color-scheme: dark)");
 const query = new URLSearchParams(location.search);
 const asked = readPlace(location.search);
 const store = createStore({
-  place: { ...HOME, theme: asked.theme, lang: startLanguage(asked.lang, navigator.languages) },
+  place: startPlace(asked, navigator.languages),
   catalog: /** @type {import("./model/types.js").Catalog} */ ({}),
   outline: begun(blank("")),
   keys: /** @type {number[]} */ ([]),

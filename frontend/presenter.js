@@ -8,7 +8,7 @@ import { STOPPED, toggled } from "./model/lecture/timer.js";
 import { linesOf } from "./model/reveal.js";
 import { createSpeech } from "./model/speech.js";
 import { createStore, mover } from "./model/store.js";
-import { HOME, readPlace, startLanguage, writePlace } from "./model/url.js";
+import { readPlace, startPlace, writePlace } from "./model/url.js";
 import { api } from "./server.js";
 import { dressed } from "./view/header.js";
 import { keeper } from "./view/keeper.js";
@@ -22,7 +22,7 @@ const dark = matchMedia("(prefers-color-scheme: dark)");
 const asked = readPlace(location.search);
 const id = new URLSearchParams(location.search).get("with");
 const store = createStore({
-  place: { ...HOME, theme: asked.theme, lang: startLanguage(asked.lang, navigator.languages) },
+  place: startPlace(asked, navigator.languages),
   catalog: /** @type {import("./model/types.js").Catalog} */ ({}),
   here: /** @type {import("./model/lecture/link.js").Here | null} */ (null),
   lines: /** @type {import("./model/reveal.js").Line[]} */ ([]),

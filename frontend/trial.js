@@ -8,7 +8,7 @@ import { groupsOf } from "./model/reference.js";
 import { createSpeech } from "./model/speech.js";
 import { createStore, mover } from "./model/store.js";
 import { ask, draftIn, draftOf, fragmentOf, sendingOf } from "./model/trial.js";
-import { HOME, readPlace, startLanguage, writePlace } from "./model/url.js";
+import { readPlace, startPlace, writePlace } from "./model/url.js";
 import { api, send as fromServer } from "./server.js";
 import { dressed } from "./view/header.js";
 import { page } from "./view/reference/trial.js";
@@ -20,7 +20,7 @@ const dark = matchMedia("(prefers-color-scheme: dark)");
 const asked = readPlace(location.search);
 /** @type {Pick<TrialView, "groups" | "call" | "draft" | "coming" | "failure"> & {place: import("./model/types.js").Place, catalog: import("./model/types.js").Catalog}} */
 const START = {
-  place: { ...HOME, theme: asked.theme, lang: startLanguage(asked.lang, navigator.languages) },
+  place: startPlace(asked, navigator.languages),
   catalog: {},
   groups: [],
   call: null,

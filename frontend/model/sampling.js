@@ -207,7 +207,7 @@ function turning({ loads }, missed) {
  * The number of samples that show the motion; the one that was asked for, if it does.
  * @param {Trajectory} trajectory @param {Asked} asked
  */
-export function samplesNeeded(trajectory, { samples, step }) {
+function samplesNeeded(trajectory, { samples, step }) {
   const steps = step === undefined ? (trajectory.cost?.steps ?? 0) : 0;
   const unseen = steps > STEPS_TO_A_SAMPLE * samples ? Math.min(ENOUGH, steps + 1) : 0;
   const wanted = Math.max((samples - 1) * more(trajectory) + 1, unseen);

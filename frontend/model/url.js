@@ -138,3 +138,13 @@ export function startLanguage(asked, preferred) {
   const known = wanted.map((tag) => LANGUAGES.find((one) => one === tag)).find(Boolean);
   return asked || known || "en";
 }
+
+/**
+ * Where a page begins of whose address only the looks are asked: language and appearance.
+ * @param {Address} asked @param {readonly string[]} preferred @returns {Place}
+ */
+export const startPlace = (asked, preferred) => ({
+  ...HOME,
+  theme: asked.theme,
+  lang: startLanguage(asked.lang, preferred),
+});

@@ -56,7 +56,7 @@ export function table({ go, fullscreen, overlay, play, substeps, lecture, presen
 }
 
 /** @param {Pick<KeyboardEvent, "key" | "shiftKey">} event @param {Keys} keys */
-export function undoneBy({ key, shiftKey }, { undo, redo }) {
+function undoneBy({ key, shiftKey }, { undo, redo }) {
   const name = key.toLowerCase();
   if (name === "z") return shiftKey ? redo : undo;
   return name === "y" ? redo : undefined;

@@ -1,6 +1,6 @@
 import { strict as assert } from "node:assert";
 import { test } from "node:test";
-import { HOME, pageAddress, PAGES, readPlace, startLanguage, writePlace } from "../../frontend/model/url.js";
+import { HOME, pageAddress, PAGES, readPlace, startLanguage, startPlace, writePlace } from "../../frontend/model/url.js";
 
 const PLACES = [
   ["nothing said", "", HOME],
@@ -79,4 +79,9 @@ test("the language: asked for, then the browser's first known one, then English"
   assert.equal(startLanguage("de", ["en-GB"]), "de");
   assert.equal(startLanguage("", ["fr-FR", "de-AT", "en"]), "de");
   assert.equal(startLanguage("", ["fr"]), "en");
+});
+
+test("a page that has no place of its own takes over the looks alone", () => {
+  const asked = readPlace("?scene=pendulum&step=velocity:bob&theme=dark");
+  assert.deepEqual(startPlace(asked, ["de-AT"]), { ...HOME, theme: "dark", lang: "de" });
 });

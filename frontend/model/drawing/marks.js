@@ -99,7 +99,7 @@ function weights(element, stage, now, key) {
 }
 
 /** Where the letter of an arrow can stand: past its tip, or beside it. @param {Pixel} from @param {Pixel} vector @param {number} u @returns {{at: Pixel, others: Pixel[]}} */
-export function aboutArrow(from, vector, u) {
+function aboutArrow(from, vector, u) {
   const tip = add(from, vector);
   const [along, across] = [unit(vector), normal(unit(vector))];
   const beside = [-0.3, -0.5 * (lengthOf(vector) / u)].flatMap((back) =>

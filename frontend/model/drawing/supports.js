@@ -31,16 +31,7 @@ function groundAt(place, element, stage, key) {
   const base = holdsPivot(element, stage) ? add(place, scaled(away, triangleHeight(stage))) : place;
   const from = /** @type {Pixel} */ ([base[0] - half, base[1]]);
   const to = /** @type {Pixel} */ ([base[0] + half, base[1]]);
-  const shapes = [
-    { key: `${key}-hatch`, d: hatching(from, to, away, stage.unit * 0.75), className: "hatch" },
-    {
-      key: `${key}-line`,
-      d: line(from, to),
-      className: "ink thick",
-      strips: beside(from, to, away, stage.unit * 0.75),
-    },
-  ];
-  return { shapes, labels: [] };
+  return hatchedLine(from, to, away, stage, key);
 }
 
 /**
@@ -57,14 +48,16 @@ export function wall(element, stage, now, key) {
 /** @param {Pixel} from @param {Pixel} to @param {Stage} stage @param {string} key @returns {Figure} */
 function wallAlong(from, to, stage, key) {
   const away = scaled(normal(subtract(to, from)), 1 / (lengthOf(subtract(to, from)) || 1));
+  return hatchedLine(from, to, away, stage, key);
+}
+
+/** A line with strokes on one side. @param {Pixel} from @param {Pixel} to @param {Pixel} away @param {Stage} stage @param {string} key @returns {Figure} */
+function hatchedLine(from, to, away, stage, key) {
+  const depth = stage.unit * 0.75;
+  const strips = beside(from, to, away, depth);
   const shapes = [
-    { key: `${key}-hatch`, d: hatching(from, to, away, stage.unit * 0.75), className: "hatch" },
-    {
-      key: `${key}-line`,
-      d: line(from, to),
-      className: "ink thick",
-      strips: beside(from, to, away, stage.unit * 0.75),
-    },
+    { key: `${key}-hatch`, d: hatching(from, to, away, depth), className: "hatch" },
+    { key: `${key}-line`, d: line(from, to), className: "ink thick", strips },
   ];
   return { shapes, labels: [] };
 }

@@ -45,7 +45,7 @@ export function vectorSymbols(chapters, result) {
 }
 
 /** v = Σ ∂r/∂qᵢ q̇ᵢ + ∂r/∂t of every body. @param {Kinematics} kinematics @param {Snapshot} now */
-export function velocitiesOf(kinematics, now) {
+function velocitiesOf(kinematics, now) {
   const free = new Set(kinematics.free);
   const rates = Object.fromEntries(Object.entries(now.rates).filter(([name]) => free.has(name)));
   return kinematics.slope(now.coordinates, now.t, rates, 1);

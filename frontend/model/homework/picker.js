@@ -30,7 +30,7 @@ const PAUSE = 400;
 const CHANGES = /** @type {const} */ (["scene", "guides", "freeze", "parameters"]);
 
 /** @type {Assignment} */
-export const BLANK_SHEET = { format: 1, title: "", individual: false, follow_through: 0.5, tasks: [] };
+const BLANK_SHEET = { format: 1, title: "", individual: false, follow_through: 0.5, tasks: [] };
 
 /** What requests say of the scene of a task. @param {Assigned} task @returns {Reference} */
 export const sceneIn = (task) =>

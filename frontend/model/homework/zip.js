@@ -10,7 +10,7 @@ const DEFLATED = 8;
 const UTF8 = 0x0800;
 const LONGEST_COMMENT = 65_535;
 /** More files are no class. */
-export const MOST_FILES = 4000;
+const MOST_FILES = 4000;
 
 const TABLE = Uint32Array.from({ length: 256 }, (_, n) => {
   let c = n;

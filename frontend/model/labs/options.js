@@ -114,9 +114,9 @@ export const value = (name) => ({
   asked: (answer) => (answer === null ? {} : { [name]: answer }),
 });
 
-/** An expression in the scene's names, or none. @param {string} name @returns {Option<string>} */
-export const expression = (name) => ({
-  kind: "text",
+/** @param {"text" | "parameter"} kind @returns {(name: string) => Option<string>} */
+const written = (kind) => (name) => ({
+  kind,
   name,
   key: name,
   label: name,
@@ -127,18 +127,11 @@ export const expression = (name) => ({
   asked: (answer) => (answer ? { [name]: answer } : {}),
 });
 
-/** A parameter of the scene, or none. @param {string} name @returns {Option<string>} */
-export const parameter = (name) => ({
-  kind: "parameter",
-  name,
-  key: name,
-  label: name,
-  usual: "",
-  ofScene: true,
-  read: (text) => text,
-  write: (answer) => answer,
-  asked: (answer) => (answer ? { [name]: answer } : {}),
-});
+/** An expression in the scene's names, or none. */
+export const expression = written("text");
+
+/** A parameter of the scene, or none. */
+export const parameter = written("parameter");
 
 /** @param {import("../types.js").Parameter} parameter @returns {Side} */
 export const rangeOf = ({ name, value, min, max }) => ({

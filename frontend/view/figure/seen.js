@@ -12,7 +12,7 @@ const NOT_PICTURED =
 const IDENTITY = [1, 0, 0, 1, 0, 0];
 
 /** Colours as every program reads them, and how opaque they are. */
-export function createColours() {
+function createColours() {
   const canvas = document.createElement("canvas");
   canvas.width = canvas.height = 1;
   const ink = /** @type {CanvasRenderingContext2D} */ (canvas.getContext("2d", { willReadFrequently: true }));

@@ -7,7 +7,7 @@ import { choice, duration, expression, number } from "../options.js";
  * service to refuse.
  * @param {string} text
  */
-export const tolerancesIn = (text) =>
+const tolerancesIn = (text) =>
   Object.fromEntries(
     text
       .split(/;|,(?!\d)/)
