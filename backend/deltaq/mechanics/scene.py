@@ -26,6 +26,7 @@ from .event import Event
 from .guide import Guide
 from .loads import Load
 from .material import Material
+from .mechanics import Mechanics
 from .parameter import Parameter
 from .point import Point
 from .redundancy import Independence, independence
@@ -174,6 +175,16 @@ class Scene:
         loads = (part.material for part in self.contributions if isinstance(part, DistributedForce))
         found = (coordinate for each in (*(body.material for body in self.bodies), *loads) for coordinate in each)
         return tuple({coordinate.name: coordinate for coordinate in found}.values())
+
+    @cached_property
+    def mechanics(self) -> Mechanics:
+        """What its equations depend on."""
+        names = tuple(c.name for c in self.coordinates), tuple(p.name for p in self.parameters)
+        events = tuple((event.name, event.value, event.then, event.restitution) for event in self.events)
+        constraints = self.conditions, tuple(symbol.name for symbol in self.multipliers)
+        return Mechanics(
+            (self.dimension, names, self.points, self.bodies, self.loads, self.guides, events, constraints)
+        )
 
     @cached_property
     def free(self) -> tuple[Coordinate, ...]:

@@ -9,6 +9,7 @@ from typing import TypeVar, cast
 
 import symengine as se
 
+from ..mechanics.mechanics import Mechanics
 from ..mechanics.scene import Scene
 from .compiled import QUICK, THOROUGH, Compiled, Floats, compile_expressions
 from .constraints import ConstraintEquations
@@ -225,32 +226,25 @@ def compile_model(scene: Scene) -> Model:
     Scenes that differ only in numbers, titles and drawing share theirs. None is kept on disk: what would be worth it is
     machine code, which whoever can write it can run, and compiling takes but 4 ms (22 ms for twelve links).
     """
-    return _compiled_once(Mechanics.of(scene))
+    return _compiled_once(ByMechanics.of(scene))
 
 
 @dataclass(frozen=True)
-class Mechanics:
-    """A scene, equal to all others with the same mechanics: what the model depends on, and no more."""
+class ByMechanics:
+    """A scene, equal to all others with the same mechanics."""
 
-    content: tuple[object, ...]
+    mechanics: Mechanics
     scene: Scene = field(compare=False)
 
     @classmethod
-    def of(cls, scene: Scene) -> Mechanics:
-        """The mechanics of a scene."""
-        return cls(_mechanics(scene), scene)
-
-
-def _mechanics(scene: Scene) -> tuple[object, ...]:
-    names = tuple(c.name for c in scene.coordinates), tuple(p.name for p in scene.parameters)
-    events = tuple((event.name, event.value, event.then, event.restitution) for event in scene.events)
-    constraints = scene.conditions, tuple(symbol.name for symbol in scene.multipliers)
-    return scene.dimension, names, scene.points, scene.bodies, scene.loads, scene.guides, events, constraints
+    def of(cls, scene: Scene) -> ByMechanics:
+        """A scene by its mechanics."""
+        return cls(scene.mechanics, scene)
 
 
 @lru_cache(maxsize=64)
-def _compiled_once(mechanics: Mechanics) -> Model:
-    return build(equations(mechanics.scene), mechanics.scene)
+def _compiled_once(found: ByMechanics) -> Model:
+    return build(equations(found.scene), found.scene)
 
 
 def build(eqs: Equations, scene: Scene, of: Callable[[Scene], Equations] = equations) -> Model:

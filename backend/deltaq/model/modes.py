@@ -31,7 +31,7 @@ from .compiled import Compiled, compile_expressions
 from .equations import Equations, equations, guided_into
 from .functions import Expr, sign
 from .kinetic import ZERO, Vector, velocity
-from .model import Mechanics, Model, build
+from .model import ByMechanics, Model, build
 from .piecewise import Smoothing, by_signs
 from .symbols import Symbols
 from .symengine_algebra import to_symengine
@@ -123,7 +123,7 @@ def modes_of(scene: Scene) -> Modes | None:
 
     Built and compiled once, like its model.
     """
-    return _made_once(Mechanics.of(scene))
+    return _made_once(ByMechanics.of(scene))
 
 
 def modes_of_model(model: Model) -> Modes | None:
@@ -132,8 +132,8 @@ def modes_of_model(model: Model) -> Modes | None:
 
 
 @lru_cache(maxsize=64)
-def _made_once(mechanics: Mechanics) -> Modes | None:
-    scene = mechanics.scene
+def _made_once(found_by: ByMechanics) -> Modes | None:
+    scene = found_by.scene
     if not (any(event.bounces for event in scene.events) or frictions_of(scene) or has_switches(scene)):
         return None
     found = _Assembly(scene)
