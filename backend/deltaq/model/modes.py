@@ -336,12 +336,12 @@ class _Assembly:
             yield self.signs.sigmas[index] * self.signs.values[index] + next(offsets)
         for k, row in enumerate(self.rows[: len(self.bounded)]):
             flag, reaction, limit = self.flags[k], self.reactions[k], self._between(self.limits[k])
-            slipping = self.bounded[k] * self._level(k, row) + next(offsets)
-            yield (ONE - flag) * slipping + flag * (limit - reaction)
+            slipping = self.bounded[k] * self._level(k, row)
+            yield (ONE - flag) * slipping + flag * (limit - reaction) + next(offsets)
             yield (ONE - flag) + flag * (limit + reaction) + next(offsets)
         for j, index in enumerate(self.contacts, len(self.bounded)):
             flag = self.flags[j]
-            yield (ONE - flag) * (self.plain.events[index] + next(offsets)) + flag * self.reactions[j]
+            yield (ONE - flag) * self.plain.events[index] + flag * self.reactions[j] + next(offsets)
 
     def _level(self, k: int, row: Row) -> Expr:
         """What changes its sign where a friction or a switch turns."""

@@ -149,6 +149,11 @@ class ModeState:
         """The largest |q̇|."""
         return size_of(self.v, self.least[1])
 
+    @once
+    def size_of_forces(self) -> float:
+        """The largest |λ| or F₀."""
+        return max(map(abs, filter(math.isfinite, (*self.facts.reactions, *self.facts.limits))), default=0.0)
+
     def scale(self, contact: int) -> float:
         """How far a gap changes with the coordinates, at most; 1 where it does not."""
         return max(map(abs, self.facts.a[self.modes.bounded + contact].tolist())) or 1.0

@@ -4,8 +4,9 @@ With σ = sign w the rate of w is ẇ = n − B σ, B = A M⁻¹ C of the rows a
 from both sides as long as |n| ≤ B: it is kept, with σ = n/B. Otherwise the motion goes through, or leaves to where it
 is driven. Several go on in one way alone if all principal minors of B are positive: σ then is the only solution of
 ẇ = 0 where |σ| < 1, ẇ ≥ 0 where σ = 1, ẇ ≤ 0 where σ = −1.
+Frictions and contacts have C = Aᵀ, and where their rows are independent always go on in one way.
 Sources: Filippov, Differential Equations with Discontinuous Righthand Sides, §4; Cottle, Pang, Stone, The Linear
-Complementarity Problem, §3.3 (matrices whose principal minors are positive).
+Complementarity Problem, §3.3 (matrices whose principal minors are positive) and §4.2 (Murty's pivots).
 """
 
 from __future__ import annotations
@@ -22,6 +23,9 @@ from .problem import Floats
 SLACK = 1e-12  # relative, of a friction that holds
 AGAINST = 1e-9  # of the jump of ẇ: so much against its side a row at zero may be driven by rounding
 MOST_TOGETHER = 5  # rows at zero of which all ways to go on are tried
+MOST_PIVOTS = 500
+MOMENT = 1e-7  # of the span
+ALONG = 1e-9  # of a row: what is left of it besides others that hold as much
 
 
 class SlidingError(Exception):
@@ -44,10 +48,11 @@ def rate_of(current: ModeState, row: int) -> float:
 
 
 def on_side(current: ModeState, row: int, side: float) -> ModeState:
-    """The same state with a row that is not held on one side of zero, or (0) held."""
+    """The same state with a row that is not held on one side of zero, or (0) held; a contact has one side only."""
     mode = current.mode
     slips = [*mode.slips]
-    slips[row] = side or slips[row]
+    if row < current.modes.bounded:
+        slips[row] = side or slips[row]
     flags = [*mode.flags]
     flags[row] = float(side == 0.0)
     return current.within(mode._replace(slips=tuple(slips), flags=tuple(flags)))
@@ -78,13 +83,18 @@ def unkept(current: ModeState, held: Sequence[bool]) -> int | None:
     return None
 
 
-def settled(current: ModeState, at_zero: Sequence[int]) -> ModeState:
-    """The state in the only mode in which frictions and switches at zero go on.
+def settled(current: ModeState, at_zero: Sequence[int], resting: Sequence[int] = ()) -> ModeState:
+    """The state in the only mode in which frictions and switches at zero, and contacts that may rest, go on.
 
-    Raises SlidingError if there is none, or more than can be told apart.
+    Raises SlidingError if switches have none, or more than can be told apart.
     """
-    if not current.modes.switches or not at_zero:
-        return current
+    if current.modes.switches and at_zero:
+        return _switched(current, at_zero)
+    rows = [*at_zero, *resting]
+    return current if len(rows) < 2 else _pivoted(current, rows)
+
+
+def _switched(current: ModeState, at_zero: Sequence[int]) -> ModeState:
     if not _is_consistent(current, at_zero):
         current = _tried(current, at_zero)
     held = [row for row in at_zero if current.mode.flags[row]]
@@ -94,6 +104,42 @@ def settled(current: ModeState, at_zero: Sequence[int]) -> ModeState:
         if is_coupled or not _is_unique(current, held):
             raise SlidingError(switch)
     return current
+
+
+def _pivoted(current: ModeState, rows: Sequence[int]) -> ModeState:
+    """The state with the first row that does not go on as it should held or let go, until all do.
+
+    Comes to an end where rows are independent. Of rows that are not, what each takes is not determined: one that the
+    others hold is let go, and the last state stands if there is no end.
+    """
+    trial = current
+    for _ in range(MOST_PIVOTS):
+        wrong = _dependent(trial, rows)
+        if wrong is None:
+            wrong = next((row for row in rows if not _goes_on(trial, row)), None)
+        if wrong is None:
+            return trial
+        trial = on_side(trial, wrong, _side_let_go(trial, wrong) if trial.mode.flags[wrong] else 0.0)
+    return current if all(map(math.isfinite, current.facts.reactions)) else trial
+
+
+def _dependent(current: ModeState, rows: Sequence[int]) -> int | None:
+    """The first row held that others before it hold as well, if there is one."""
+    held: list[Floats] = []
+    for row in rows:
+        if current.mode.flags[row]:
+            held.append(current.facts.a[row] / (np.linalg.norm(current.facts.a[row]) or 1.0))
+            if np.linalg.matrix_rank(np.array(held), tol=ALONG) < len(held):
+                return row
+    return None
+
+
+def _side_let_go(current: ModeState, row: int) -> float:
+    """The side to which a friction goes that is not held, and 1 for a contact."""
+    if row >= current.modes.bounded:
+        return 1.0
+    reaction = current.facts.reactions[row]
+    return -math.copysign(1.0, reaction) if math.isfinite(reaction) else current.mode.slips[row]
 
 
 def _tried(current: ModeState, at_zero: Sequence[int]) -> ModeState:
@@ -109,22 +155,52 @@ def _tried(current: ModeState, at_zero: Sequence[int]) -> ModeState:
 
 
 def _is_consistent(current: ModeState, at_zero: Sequence[int]) -> bool:
-    """Whether what is held is within its bounds, and what is not leaves to its side, or stays."""
-    facts = current.facts
-    for row in at_zero:
-        reaction, limit = facts.reactions[row], facts.limits[row]
-        if current.mode.flags[row]:
-            if not abs(reaction) <= limit * (1.0 + SLACK):
-                return False
-        elif not current.mode.slips[row] * rate_of(current, row) >= -AGAINST * _jump(current, row):
-            return False
-    return True
+    return all(_goes_on(current, row) for row in at_zero)
+
+
+def _goes_on(current: ModeState, row: int) -> bool:
+    """Whether a row that is held is so within its bounds, and one that is not leaves to its side, or stays.
+
+    What is at its bound but for rounding goes on if it is not beyond it a moment later.
+    """
+    left, unclear = _left_of_bound(current, row)
+    if abs(left) > unclear:
+        return left > 0.0
+    left, unclear = _left_of_bound(_later(current), row)
+    return left >= -unclear
+
+
+def leaves(current: ModeState, row: int) -> bool:
+    """Whether a row that was let go moves, or others hold it."""
+    if not any(current.mode.flags):
+        return True
+    speed, unclear = _left_of_bound(_later(current), row)
+    return speed > unclear
+
+
+def _left_of_bound(current: ModeState, row: int) -> tuple[float, float]:
+    """How far a held row is from letting go, or how fast another one leaves zero; and what rounding makes of it."""
+    facts, is_contact = current.facts, row >= current.modes.bounded
+    if current.mode.flags[row]:
+        reaction, limit = facts.reactions[row], current.size_of_forces if is_contact else facts.limits[row]
+        left = reaction if is_contact else limit - abs(reaction)
+        return left if math.isfinite(left) else -math.inf, SLACK * limit
+    side = 1.0 if is_contact else current.mode.slips[row]
+    return side * rate_of(current, row), AGAINST * _jump(current, row)
+
+
+def _later(current: ModeState) -> ModeState:
+    """The state a moment later."""
+    h, rates = MOMENT * current.problem.t_end, current.accelerations
+    return current.at(current.time + h, current.q + h * (current.v + 0.5 * h * rates), current.v + h * rates)
 
 
 def _jump(current: ModeState, row: int) -> float:
-    """How much of ẇ there is to compare with."""
-    facts = current.facts
-    return abs(float(facts.a[row] @ current.moved_by(facts.along[row]))) + abs(facts.bias[row])
+    """How much of ẇ there is to compare with: what the force between both sides does, or for contacts any force."""
+    facts, is_contact = current.facts, row >= current.modes.bounded
+    force = current.size_of_forces if is_contact else facts.limits[row]
+    jump = abs(force * float(facts.a[row] @ current.moved_by(facts.along[row]))) + abs(facts.bias[row])
+    return jump + float(np.abs(facts.a[row]) @ np.abs(current.accelerations)) if is_contact else jump
 
 
 def _is_unique(current: ModeState, held: Sequence[int]) -> bool:

@@ -21,7 +21,7 @@ import numpy as np
 from ..model.modes import Modes
 from .mode_state import TOUCHING, Facts, Mode, ModeState
 from .problem import Floats, Problem
-from .sliding import SLACK, draws, on_side, rate_of, settled, side_left_to, unkept
+from .sliding import SLACK, draws, leaves, on_side, rate_of, settled, side_left_to, unkept
 
 STILL = 1e-12  # a rate, relative to the largest
 HEIGHT = 1e-15  # by which rounding lifts a rebound, relative to the coordinates
@@ -130,7 +130,8 @@ def passed(current: ModeState, watched: int) -> ModeEvent:
     j = place - 2 * modes.bounded
     if mode.flags[modes.bounded + j]:
         row = modes.bounded + j  # a gap that was kept has no rate but what steps left of it
-        return _resolved(_without_rate(current, row), frozenset(), row), _name(modes, j), "release"
+        found = _resolved(_without_rate(current, row), frozenset(), row)
+        return (found, _name(modes, j), "release") if leaves(found, row) else (found, "", "switch")
     return _met(current, j)
 
 
@@ -139,7 +140,10 @@ def _come_or_gone(current: ModeState, row: int) -> ModeEvent:
     modes = current.modes
     is_switch, name = row >= len(modes.frictions), modes.name_of(row)
     if current.mode.flags[row]:
-        return _resolved(current, frozenset(), row), name, "leave" if is_switch else "slip"
+        found = _resolved(current, frozenset(), row)
+        if is_switch:
+            return found, name, "leave"
+        return (found, name, "slip") if leaves(found, row) else (found, "", "switch")
     if row >= modes.first_pin:
         return _pinned(current, row, name)
     sign = current.mode.slips[row]
@@ -297,6 +301,7 @@ def _resolved(current: ModeState, closed: frozenset[int], released: int | None, 
     if released is not None and released < bounded:
         slips[released] = -float(np.sign(facts.reactions[released])) or 1.0
     at_zero = [row for row in range(bounded) if held[row] or row == released]
+    resting = [row for row in range(bounded, modes.rows) if held[row] or row == released]
     for row in range(modes.rows):
         if held[row] and current.facts.w[row] != 0.0:
             current = _without_rate(current, row)
@@ -316,16 +321,14 @@ def _resolved(current: ModeState, closed: frozenset[int], released: int | None, 
             slips[lost] = _left(trial, lost, has_come=lost == come)
     found = current.within(current.mode._replace(flags=tuple(map(float, held)), slips=tuple(slips)))
     found = trial if found.mode == trial.mode else found  # of which all is known already
-    return settled(found, [row for row in at_zero if not across[row]])
+    return settled(found, [row for row in at_zero if not across[row]], resting)
 
 
 def _at_rest(current: ModeState, closed: frozenset[int], released: int | None, come: int | None) -> list[bool]:
     """By row, whether it may be held: what slips does not, and contacts that touch and do not open."""
     modes, facts, size, touching = current.modes, current.facts, current.size_of_rates, current.touching
-    held = [
-        abs(facts.w[row]) <= HARDLY * size or row == come or bool(current.mode.flags[row])
-        for row in range(modes.bounded)
-    ]
+    least = [TINY if flag else HARDLY for flag in current.mode.flags]  # what sticks may have been moved by an impact
+    held = [abs(facts.w[row]) <= least[row] * size or row == come for row in range(modes.bounded)]
     for row in range(modes.first_pin, modes.bounded):
         slope = float(np.abs(facts.a[row]).max())
         held[row] &= abs(facts.pins[row - modes.first_pin]) <= ROUNDING * slope * current.size_of_places
@@ -393,6 +396,12 @@ def _moved_by_time(current: ModeState) -> list[float]:
     return [abs(there - here) for there, here in zip(later.watched.tolist(), current.watched.tolist(), strict=True)]
 
 
+def _row_watched(modes: Modes, place: int) -> int:
+    """The row whose value is watched at a place behind those of endings and kinks: each friction or switch has two."""
+    place -= len(modes.ending) + len(modes.kinks)
+    return place // 2 if place < 2 * modes.bounded else place - modes.bounded
+
+
 def with_offsets(current: ModeState) -> ModeState:
     """Offsets that make all watched values positive: what has just happened does not happen again at once.
 
@@ -407,8 +416,11 @@ def with_offsets(current: ModeState) -> ModeState:
     of_rates, of_places = HARDLY * current.size_of_rates, ROUNDING * current.size_of_places
     offsets = []
     for place, value in enumerate(values):
-        room = of_rates if first <= place < pins else of_places
-        room *= current.scale(place - last) if place >= last else 1.0
+        if place >= first and mode.flags[_row_watched(modes, place)]:
+            room = HARDLY * current.size_of_forces
+        else:
+            room = of_rates if first <= place < pins else of_places
+            room *= current.scale(place - last) if place >= last else 1.0
         room += moved[place]
         offsets.append(0.0 if place < ending or value > room else room - min(value, 0.0))
     return current.within(mode._replace(offsets=tuple(offsets)))

@@ -1,0 +1,79 @@
+"""Several carts at rest together: which of them go on to be held is known in closed form, or by SciPy and trial."""
+
+from __future__ import annotations
+
+from random import Random
+
+import numpy as np
+import pytest
+from tests.simulation.carts import Cart, Train, drawn
+
+from deltaq.simulation.driver import simulate
+from deltaq.simulation.library import get_method
+from deltaq.simulation.service import problem_of
+from deltaq.simulation.trajectory import Trajectory
+
+METHODS = ("dop853", "taylor", "dormand-prince-54", "rk4", "radau-5", "gauss-4")
+TRUE = 3e-10  # SciPy is right to about as much
+
+
+def motion(train: Train, method: str, t_end: float = 3.0, tolerance: float = 1e-8) -> Trajectory:
+    return simulate(problem_of(train.scene, t_end, 41), get_method(method), tolerance=tolerance)
+
+
+def is_covered(found: Trajectory, train: Train) -> bool:
+    assert found.estimate is not None
+    true = np.abs(train.along(found.times) - found.values).max(axis=1)
+    return bool((true <= found.estimate.errors + TRUE).all())
+
+
+@pytest.mark.parametrize("method", METHODS)
+def test_what_sticks_is_let_go_by_an_impact(method: str) -> None:
+    """m₀ with v meets m₁ at rest on dry ground; behind it both slow down by F/(m₀ + m₁)."""
+    train = Train([Cart(1.0, 0.5, 2.0), Cart(3.0, 1.5, friction=0.8)], [(0, 1)])
+    found = motion(train, method)
+    behind = np.maximum(found.times - 0.5, 0.0)
+    slowed = np.minimum(behind, 0.5 / 0.2)
+    expected = 1.5 + 0.5 * slowed - 0.1 * slowed**2
+    assert found.outcome.status == "ok"
+    assert np.abs(found.values[:, 1] - expected).max() < 1e-9
+
+
+@pytest.mark.parametrize("method", METHODS)
+@pytest.mark.parametrize("friction", [0.0, 0.6], ids=["the first sticks", "both stick"])
+def test_carts_that_touch_begin_to_slip_together(method: str, friction: float) -> None:
+    """What pushes the first is A sin ωt ≈ the sum of both frictions at the start; each alone is held by less."""
+    carts = [Cart(2.0, 0.5, amplitude=3.0, omega=0.5, friction=0.9), Cart(1.0, 0.5, friction=friction)]
+    train = Train(carts, [(0, 1)])
+    found = motion(train, method, 1.5)
+    begin = 2.0 * np.arcsin((0.9 + friction) / 3.0)
+    later = np.maximum(found.times, begin)
+    pushed = 6.0 * np.cos(0.5 * begin) * (later - begin) - 12.0 * (np.sin(0.5 * later) - np.sin(0.5 * begin))
+    expected = 0.5 + (pushed - 0.5 * (0.9 + friction) * (later - begin) ** 2) / 3.0
+    assert found.outcome.status == "ok"
+    assert np.abs(found.values - expected[:, None]).max() < 1e-9
+    assert [each.kind for each in found.transitions] == ["slip"]
+    assert found.transitions[0].time == pytest.approx(begin, abs=1e-9)
+
+
+@pytest.mark.parametrize("method", METHODS)
+def test_what_is_undetermined_does_not_stop_a_motion(method: str) -> None:
+    """Four carts in a row touch each other and stick, one at the wall: eight rows hold four coordinates."""
+    carts = [
+        Cart(2.7, 0.5, spring=20.0, amplitude=1.6, omega=2.0, friction=1.75),
+        Cart(2.2, 0.5, force=-0.1, amplitude=2.8, omega=3.0, friction=1.64),
+        Cart(1.9, 0.5, friction=1.31),
+        Cart(0.4, 0.5, force=-2.4, friction=0.78),
+    ]
+    train = Train(carts, [(-1, 0), (0, 1), (1, 2), (2, 3)])
+    found = motion(train, method)
+    assert found.outcome.status == "ok"
+    assert np.abs(found.values - train.stepped(found.times, 3000)).max() < 2e-3
+
+
+@pytest.mark.parametrize("seed", range(24))
+def test_random_carts(seed: int) -> None:
+    train, method = drawn(Random(f"carts {seed}")), METHODS[seed % len(METHODS)]
+    found = motion(train, method, 4.0)
+    assert found.outcome.status == "ok"
+    assert is_covered(found, train)
