@@ -36,7 +36,7 @@ class Compiled:
 
     def __getstate__(self) -> dict[str, object]:
         """All but the addresses, which are those of this process."""
-        return {name: value for name, value in self.__dict__.items() if name != "addresses"}
+        return {name: value for name, value in self.__dict__.items() if name not in ("addresses", "_one_row")}
 
     @cached_property
     def addresses(self) -> tuple[int, int]:
@@ -54,9 +54,20 @@ class Compiled:
 
         The same numbers as `table` has, without its detours: behind an event there are many such rows, one by one.
         """
-        values, (address, data) = np.empty(self.outputs), self.addresses
-        _function_at(address)(_numbers(self.outputs).from_buffer(values), _numbers(self.inputs).from_buffer(row), data)
+        values, (call, outputs, inputs, data) = np.empty(self.outputs), self._one_row
+        call(outputs(values), inputs(row), data)
         return values
+
+    @cached_property
+    def _one_row(self) -> tuple[Any, Any, Any, int]:
+        """The function for one row, views of its outputs and inputs as C's arrays, and its data."""
+        address, data = self.addresses
+        return (
+            _function_at(address),
+            _numbers(self.outputs).from_buffer,
+            _numbers(self.inputs).from_buffer,
+            data,
+        )
 
 
 @lru_cache(maxsize=256)

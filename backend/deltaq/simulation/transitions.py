@@ -181,10 +181,13 @@ def _lies_in(current: ModeState, row: int) -> bool:
 def _without_rate(current: ModeState, row: int) -> ModeState:
     """The state with what rounding left of a rate taken away; where that is not done by a tiny impulse, as it is."""
     along = current.facts.a[row]
-    if not along @ current.moved_by(along) > 0.0:
+    moved = current.moved_by(along)
+    lift = float(along @ moved)
+    if not lift > 0.0:
         return current
-    pushed = current.pushed(row, -current.facts.w[row])
-    return pushed if np.abs(pushed.v - current.v).max() <= TINY * current.size_of_rates else current
+    v = current.v + moved * (-current.facts.w[row] / lift)
+    is_tiny = np.abs(v - current.v).max() <= TINY * current.size_of_rates
+    return current.at(current.time, current.q, v) if is_tiny else current
 
 
 def _met(current: ModeState, contact: int) -> ModeEvent:
