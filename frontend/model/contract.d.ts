@@ -7393,8 +7393,9 @@ export interface components {
             force?: string[] | string | null;
             /**
              * Coordinate
-             * @description that friction acts on
+             * @description that friction acts on, or what slips
              * @example x
+             * @example x - y
              */
             coordinate?: string | null;
             /**

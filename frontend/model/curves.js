@@ -155,9 +155,15 @@ function reactionRows(scene, { t: times, multipliers, reactions }, { hidden }) {
  */
 function frictionRows(scene, { t: times, friction }, { hidden }) {
   const { coordinates, constraints, loads } = scene;
+  /** The coordinate that a friction acts on, or one of those that it is a sum of. @param {string} name */
+  const slipping = (name) => {
+    const text = loads.find((load) => load.name === name)?.coordinate ?? "";
+    const parts = coordinates.filter((one) => text.split(/[\s()+-]+/).includes(one.name));
+    return parts.every((one) => one.unit === parts[0]?.unit) ? parts[0] : undefined;
+  };
   const several = Object.keys(friction ?? {}).length > 1;
   return Object.entries(friction ?? {}).map(([name, { force, largest }], k) => {
-    const along = coordinates.find((one) => one.name === loads.find((load) => load.name === name)?.coordinate);
+    const along = slipping(name);
     const curve = (/** @type {string} */ key, /** @type {string} */ latex, /** @type {number[]} */ values) => ({
       key: `${key}-${name}`,
       name: several ? `${latex} (${name})` : latex,

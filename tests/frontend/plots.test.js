@@ -27,6 +27,14 @@ test("reactions have a row above the energies, written as what they hold or as m
   assert.deepEqual(rows(undefined), [["", [...multiplier, false], [...held, false]]]);
 });
 
+for (const [coordinate, unit] of [["y", "N"], ["phi", "N m"], ["y - 2", "N"], ["phi - y", ""], ["l*phi", ""]])
+  test(`friction on ${coordinate} is told in ${unit || "no unit"}`, () => {
+    const friction = { rubs: { force: trajectory.t, largest: trajectory.t } };
+    const rubbed = /** @type {any} */ ({ ...scene, loads: [{ kind: "friction", name: "rubs", coordinate, force: "1" }] });
+    const row = rowsOf(rubbed, { ...trajectory, friction }).find((one) => one.key === "friction0");
+    assert.equal(row?.unit, unit);
+  });
+
 for (const [height, ticks] of [[700, 4], [300, 4], [240, 3], [130, 2], [20, 2]])
   test(`in plots of ${height} pixels an axis has ${ticks} ticks at most`, () => {
     const layout = /** @type {any} */ (layoutOf(rowsOf(scene, trajectory), 4, palette, "en", height, 16));

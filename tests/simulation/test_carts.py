@@ -7,6 +7,7 @@ from random import Random
 import numpy as np
 import pytest
 from tests.simulation.carts import Cart, Train, drawn
+from tests.simulation.scenes import scene
 
 from deltaq.simulation.driver import simulate
 from deltaq.simulation.library import get_method
@@ -69,6 +70,26 @@ def test_what_is_undetermined_does_not_stop_a_motion(method: str) -> None:
     found = motion(train, method)
     assert found.outcome.status == "ok"
     assert np.abs(found.values - train.stepped(found.times, 3000)).max() < 2e-3
+
+
+@pytest.mark.parametrize("method", METHODS)
+def test_a_block_rubs_on_a_board(method: str) -> None:
+    """Both move in the end: friction acts on how far one has slipped on the other, and one sticks to the other then.
+
+    The block with v comes to the board's rate after t = v/(F/m + F/M); momentum is kept.
+    """
+    between = {"kind": "friction", "name": "between", "coordinate": "z - x", "force": "1.2"}
+    blocks = scene(
+        {"x": (0.0, 0.0), "z": (0.5, 2.0)}, {}, {"board": ("3", ["x", "0"]), "block": ("1", ["z", "0"])}, [between]
+    )
+    found = simulate(problem_of(blocks, 3.0, 41), get_method(method), tolerance=1e-8)
+    together = 2.0 / (1.2 + 0.4)
+    slipped = np.minimum(found.times, together)
+    behind = 0.5 * (found.times - slipped)
+    expected = np.array([0.2 * slipped**2 + behind, 0.5 + 2.0 * slipped - 0.6 * slipped**2 + behind]).T
+    assert found.outcome.status == "ok"
+    assert np.abs(found.values - expected).max() < 1e-9
+    assert [(each.kind, each.name) for each in found.transitions] == [("stick", "between")]
 
 
 @pytest.mark.parametrize("seed", range(24))

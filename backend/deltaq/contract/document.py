@@ -106,7 +106,7 @@ class SceneLoad(Part):
     acceleration: Vector | None = Field(None, description="of gravity", examples=[["0", "g"]])
     at: str | None = Field(None, description="the point or body that a force acts on")
     force: Vector | Expression | None = Field(None, description="components of a force, or friction while it slips")
-    coordinate: str | None = Field(None, description="that friction acts on", examples=["x"])
+    coordinate: str | None = Field(None, description="that friction acts on, or what slips", examples=["x", "x - y"])
     static: Expression | None = Field(None, description="the most that friction holds with; its force if empty")
     surface_rate: Expression | None = Field(None, description="rate of the surface that it rubs on; 0 if empty")
     angle: Expression | None = Field(None, description="that a moment does work on")

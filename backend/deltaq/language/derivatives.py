@@ -33,6 +33,9 @@ def diff(expr: Any, by: Any) -> Any:  # noqa: PLR0911 - one case for each kind
     if isinstance(expr, PLAIN):
         inner = [diff(arg, by) for arg in expr.args]
         return sympy.Add(*(expr.fdiff(i) * change for i, change in enumerate(inner, 1) if change is not ZERO))
+    if isinstance(expr, sympy.sign):  # of what is real: SymPy does not know a fraction to be
+        change = diff(expr.args[0], by)
+        return ZERO if change is ZERO else 2 * sympy.DiracDelta(expr.args[0]) * change
     return expr.diff(by)
 
 

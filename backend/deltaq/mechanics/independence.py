@@ -11,9 +11,11 @@ import math
 from collections.abc import Iterator
 
 from ..errors import Problem
+from ..language.expression import Expression
 from ..language.floats import evaluate
 from .constraints.distance import DistanceConstraint
 from .dependence import dependence_problems, random_points
+from .loads.friction import DryFriction
 from .rows import STEP, growth
 from .scene import Scene
 
@@ -28,16 +30,22 @@ def independence_problems(scene: Scene) -> Iterator[Problem]:
 
 
 def gap_problems(scene: Scene) -> Iterator[Problem]:
-    """Impacts whose gap no coordinate changes, so that they would have no direction."""
-    names = [coordinate.name for coordinate in scene.coordinates]
+    """Impacts whose gap no coordinate changes, and friction on what none moves: they would have no direction."""
     for index, event in enumerate(scene.events):
-        if not event.bounces or event.value.rates:
-            continue
-        points = random_points(scene.start, names)
-        rows = [[growth(event.value.tree, point, name, STEP) for name in names] for point in points]
-        known = [row for row in rows if all(map(math.isfinite, row))]
-        if known and not any(any(row) for row in known):
+        if event.bounces and not event.value.rates and _is_still(scene, event.value):
             yield Problem("bounce-without-coordinates", f"/events/{index}/value")
+    for index, load in enumerate(scene.loads):
+        if isinstance(load, DryFriction) and _is_still(scene, load.coordinate):
+            yield Problem("friction-without-coordinates", f"/loads/{index}/coordinate")
+
+
+def _is_still(scene: Scene, value: Expression) -> bool:
+    """Whether no coordinate changes a value, at random places where it is a number."""
+    names = [coordinate.name for coordinate in scene.coordinates]
+    points = random_points(scene.start, names)
+    rows = [[growth(value.tree, point, name, STEP) for name in names] for point in points]
+    known = [row for row in rows if all(map(math.isfinite, row))]
+    return bool(known) and not any(any(row) for row in known)
 
 
 def _lengths(scene: Scene) -> Iterator[Problem]:

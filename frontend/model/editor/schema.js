@@ -47,7 +47,7 @@ export const SECTIONS = [
       "generalized-potential": [field("energy", "expression")],
       dissipation: [field("function", "expression")],
       friction: [
-        field("coordinate", "coordinate"),
+        field("coordinate", "expression"),
         field("force", "expression"),
         optional("static", "expression"),
         optional("surface_rate", "expression"),
