@@ -4,7 +4,8 @@ With σ = sign w the rate of w is ẇ = n − B σ, B = A M⁻¹ C of the rows a
 from both sides as long as |n| ≤ B: it is kept, with σ = n/B. Otherwise the motion goes through, or leaves to where it
 is driven. Several go on in one way alone if all principal minors of B are positive: σ then is the only solution of
 ẇ = 0 where |σ| < 1, ẇ ≥ 0 where σ = 1, ẇ ≤ 0 where σ = −1.
-Frictions and contacts have C = Aᵀ, and where their rows are independent always go on in one way.
+Frictions, |λ| ≤ F₀, and contacts, λ ≥ 0 and g̈ ≥ 0, have C = Aᵀ: a linear complementarity problem with bounds, which
+has one solution where their rows are independent.
 Sources: Filippov, Differential Equations with Discontinuous Righthand Sides, §4; Cottle, Pang, Stone, The Linear
 Complementarity Problem, §3.3 (matrices whose principal minors are positive) and §4.2 (Murty's pivots).
 """
@@ -171,9 +172,11 @@ def _goes_on(current: ModeState, row: int) -> bool:
 
 
 def leaves(current: ModeState, row: int) -> bool:
-    """Whether a row that was let go moves, or others hold it."""
+    """Whether a row that should be let go moves, or is held after all, or by others."""
     if not any(current.mode.flags):
         return True
+    if current.mode.flags[row]:
+        return False
     speed, unclear = _left_of_bound(_later(current), row)
     return speed > unclear
 
