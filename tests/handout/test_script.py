@@ -11,6 +11,8 @@ from typing import Any
 import numpy as np
 import pytest
 from tests.derivation.scenes import constrained
+from tests.simulation.carts import Cart, Train
+from tests.simulation.carts import drawn as carts
 from tests.simulation.constrained import G, platform
 
 from deltaq.errors import RequestError
@@ -145,6 +147,24 @@ def test_program_and_simulation_agree_on_random_jumps(seed: int, tmp_path: Path)
     at = same_times(times, shown)
     for name, values in zip(program["COORDINATES"], q, strict=True):
         np.testing.assert_allclose(values, np.array(shown["coordinates"][name])[at], atol=1e-9)
+
+
+@pytest.mark.one_in(4)
+@pytest.mark.parametrize("seed", range(16))
+def test_program_of_carts_that_rub_and_touch(seed: int, tmp_path: Path) -> None:
+    """Several at rest together, held against SciPy's integrator with rules of its own."""
+    train = carts(random.Random(f"carts {seed}"))
+    times, q, _ = executed(script(train.scene, "en", T_END), tmp_path)["solve"]()
+    np.testing.assert_allclose(q.T, train.along(times), atol=1e-8)
+
+
+def test_program_of_more_rests_than_are_determined(tmp_path: Path) -> None:
+    """Two carts stick and touch: both are pushed over their frictions' sum at once."""
+    pushed, other = Cart(2.0, 0.5, amplitude=3.0, omega=0.5, friction=0.9), Cart(1.0, 0.5, friction=0.6)
+    times, q, _ = executed(script(Train([pushed, other], [(0, 1)]).scene, "en", 1.5), tmp_path)["solve"]()
+    later = np.maximum(times, begin := np.pi / 3.0)
+    moved = 6.0 * np.cos(0.5 * begin) * (later - begin) - 12.0 * (np.sin(0.5 * later) - np.sin(0.5 * begin))
+    np.testing.assert_allclose(q.T, 0.5 + (moved - 0.75 * (later - begin) ** 2)[:, None] / 3.0 * [1.0, 1.0], atol=1e-9)
 
 
 def test_friction_on_a_surface_at_a_rate_in_numbers(tmp_path: Path) -> None:

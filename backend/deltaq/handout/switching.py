@@ -88,6 +88,33 @@ def behind_impacts(t, q, v, slips, held):  # of all contacts that touch and clos
     raise SystemExit("Several contacts at once, whose impacts do not end")
 
 
+def independent(t, q, v, held):  # without rows that those before them hold already
+    a, held = rows(t, q, v)[0], held.copy()
+    for row in np.flatnonzero(held):
+        before = a[held & (np.arange(len(held)) <= row)]
+        held[row] = np.linalg.matrix_rank(before) == len(before)
+    return held
+
+
+def left(t, q, v, slips, held, row):  # until a row that is held lets go, or how fast another one leaves zero
+    accelerations, reactions = accelerations_and_reactions(t, q, v, slips, held)
+    if held[row]:
+        return friction(t, q, v)[1][row] - abs(reactions[row]) if row < FRICTIONS else reactions[row]
+    a, _, gamma = rows(t, q, v)
+    return (slips[row] if row < FRICTIONS else 1.0) * (a[row] @ accelerations + gamma[row])
+
+
+def first_wrong(t, q, v, slips, held, at_zero):  # the first row to be held or let go instead
+    h, accelerations = 1e-7 * T_END, accelerations_and_reactions(t, q, v, slips, held)[0]
+    for row in at_zero:
+        value = left(t, q, v, slips, held, row)
+        if abs(value) < 1e-9:  # a moment later it is clear
+            value = left(t + h, q + h * v, v + h * accelerations, slips, held, row) + 1e-9
+        if value < 0.0:
+            return row
+    return None
+
+
 def settled(t, q, v, slips, held, event):  # how it goes on behind an event, None at the start
     slips, loose = slips.copy(), None
     if event is not None and held[event]:
@@ -102,18 +129,18 @@ def settled(t, q, v, slips, held, event):  # how it goes on behind an event, Non
     still = abs(w) < 1e-11
     slips = np.where(abs(w[:FRICTIONS]) > 1e-13, np.sign(w[:FRICTIONS]), slips)
     held = still & np.concatenate([np.ones(FRICTIONS, dtype=bool), contacts(t, q, v)[0] < 1e-11])
+    at_zero = np.flatnonzero(held)
     if loose is not None:
         held[loose] = False
-    while held.any():
-        reactions = accelerations_and_reactions(t, q, v, slips, held)[1]
-        enough = np.concatenate([friction(t, q, v)[1] - abs(reactions[:FRICTIONS]), reactions[FRICTIONS:]])
-        lost = np.flatnonzero(held & (enough <= 0.0))
-        if not lost.size:
-            break
-        held[lost[0]] = False
-        if lost[0] < FRICTIONS:
-            slips[lost[0]] = -np.sign(reactions[lost[0]])
-    return v, slips, held
+    for _ in range(1000):
+        held = independent(t, q, v, held)
+        row = first_wrong(t, q, v, slips, held, at_zero)
+        if row is None:
+            return v, slips, held
+        if held[row] and row < FRICTIONS:
+            slips[row] = -np.sign(accelerations_and_reactions(t, q, v, slips, held)[1][row])
+        held[row] = not held[row]
+    raise SystemExit("Nothing tells what is held and what is let go")
 
 
 def solve(t_end=T_END, samples=SAMPLES):
@@ -143,6 +170,7 @@ def solve(t_end=T_END, samples=SAMPLES):
             t_eval=times[len(states) :],
             rtol=1e-11,
             atol=1e-12,
+            max_step=t_end / 500,  # what falls and rises again within a step is not seen
             events=[{ending}*map(falling, range(len(held)))],
         )
         if not found.success:
