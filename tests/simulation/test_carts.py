@@ -92,6 +92,18 @@ def test_a_block_rubs_on_a_board(method: str) -> None:
     assert [(each.kind, each.name) for each in found.transitions] == [("stick", "between")]
 
 
+@pytest.mark.parametrize("method", METHODS)
+def test_a_row_of_carts_is_caught_at_once(method: str) -> None:
+    """Momentum is kept: all go on with m₀ v/Σm. One pair after the other it takes more than a thousand impacts."""
+    masses = (1.0, 3.0, 0.5, 4.0, 2.0, 0.2, 3.0, 1.3)
+    carts = [Cart(mass, 1.0 if k else 0.2, 0.0 if k else 1.6) for k, mass in enumerate(masses)]
+    found = motion(Train(carts, [(k, k + 1) for k in range(len(masses) - 1)]), method)
+    assert found.outcome.status == "ok"
+    behind = np.maximum(found.times - 0.5, 0.0) * 1.6 * masses[0] / sum(masses)
+    assert np.abs(found.values[:, 1:] - 1.0 - behind[:, None]).max() < 1e-12
+    assert np.abs(found.values[:, 0] - np.minimum(0.2 + 1.6 * found.times, 1.0) - behind).max() < 1e-12
+
+
 @pytest.mark.parametrize("seed", range(24))
 def test_random_carts(seed: int) -> None:
     train, method = drawn(Random(f"carts {seed}")), METHODS[seed % len(METHODS)]

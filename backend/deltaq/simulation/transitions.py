@@ -11,7 +11,7 @@ Source: Pfeiffer, Glocker, Multibody Dynamics with Unilateral Contacts, ch. 4–
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, replace
 from typing import TypeAlias
@@ -37,6 +37,7 @@ NUDGE = 1e-6  # of the coordinates: for slopes by differences, which are right t
 ALONG = 1e-9  # of a row: what is left of it besides the rows of contacts
 ROOMY = 1e3  # of what a scene's places and rates are at first: what they may become
 MOST_IMPACTS = 1000  # one after the other at one time
+MANY_IMPACTS = 30  # behind so many those without rebound are taken at once
 
 
 @dataclass(frozen=True)
@@ -258,13 +259,37 @@ def _after_impacts(current: ModeState, first: int) -> ModeState:
     touching = {first} | resting | set(free.touching)
     for j in touching:
         _require_direction(free, j)
-    for _ in range(MOST_IMPACTS):
+    for count in range(MOST_IMPACTS):
         rates = {j: free.facts.w[first_row + j] for j in touching}
         j = min(rates, key=lambda each: rates[each] / free.scale(each))
         if rates[j] >= -STILL * free.scale(j) * free.size_of_rates:
             return free.within(current.mode)
+        if count >= MANY_IMPACTS and all(free.facts.restitutions[each] == 0.0 for each in touching):
+            return _caught(free, sorted(touching)).within(current.mode)
         e = 0.0 if _rests(free, first_row + j, j) else free.facts.restitutions[j]
         free = free.pushed(first_row + j, -(1.0 + e) * rates[j])
+    raise UnsettledError
+
+
+def _caught(current: ModeState, contacts: Sequence[int]) -> ModeState:
+    """The state behind impacts at once that lose all of their rates: Λ ≥ 0, ġ⁺ ≥ 0, and Λ = 0 where ġ⁺ > 0.
+
+    It is what impacts one after the other come to, which may take very many. Raises UnsettledError where it is not
+    found, for contacts that depend on each other.
+    """
+    rows = [current.modes.bounded + j for j in contacts]
+    moved: Floats = np.array([current.moved_by(current.facts.a[row]) for row in rows])
+    flexibility, rates = current.facts.a[rows] @ moved.T, np.array([current.facts.w[row] for row in rows])
+    least = np.array([STILL * current.scale(j) * current.size_of_rates for j in contacts])
+    closing = np.zeros(len(rows), dtype=bool)
+    for _ in range(MOST_IMPACTS):
+        impulses = np.zeros(len(rows))
+        part = flexibility[np.ix_(closing, closing)]  # singular where contacts depend on each other
+        impulses[closing] = np.linalg.lstsq(part, -rates[closing], rcond=ROUNDING * len(rows))[0]
+        wrong = np.flatnonzero(np.where(closing, impulses < 0.0, rates + flexibility @ impulses < -least))
+        if not wrong.size:
+            return current.at(current.time, current.q, current.v + impulses @ moved)
+        closing[wrong[0]] = not closing[wrong[0]]
     raise UnsettledError
 
 
