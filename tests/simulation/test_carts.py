@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from random import Random
 
 import numpy as np
@@ -9,6 +10,9 @@ import pytest
 from tests.simulation.carts import Cart, Train, drawn
 from tests.simulation.scenes import scene
 
+from deltaq.mechanics.document import read_scene
+from deltaq.mechanics.scene import Scene
+from deltaq.mechanics.writing import write_scene
 from deltaq.simulation.driver import simulate
 from deltaq.simulation.library import get_method
 from deltaq.simulation.service import problem_of
@@ -20,6 +24,25 @@ TRUE = 3e-10  # SciPy is right to about as much
 
 def motion(train: Train, method: str, t_end: float = 3.0, tolerance: float = 1e-8) -> Trajectory:
     return simulate(problem_of(train.scene, t_end, 41), get_method(method), tolerance=tolerance)
+
+
+def in_two_parts(train: Train, random: Random) -> Scene:
+    """The scene with one of the carts made of two, one metre apart, each with its part of mass and friction."""
+    document, k = write_scene(train.scene), random.randrange(len(train.carts))
+    cart, name, share = train.carts[k], f"x{k}", random.choice([0.3, 0.5, 0.9])
+    (body,) = (each for each in document["bodies"] if each["name"] == f"b{name}")
+    body["mass"] = repr(share * cart.mass)
+    document["bodies"].append(
+        body | {"name": "part", "mass": repr(cart.mass - share * cart.mass), "position": ["y", "0"]}
+    )
+    document["coordinates"].append({"name": "y", "value": cart.x + 1.0, "rate": cart.v})
+    document["constraints"] = [{"kind": "equation", "name": "rod", "equation": f"y - {name} = 1"}]
+    for load in [each for each in document["loads"] if each.get("coordinate") == name]:
+        load["force"] = repr(share * cart.friction)
+        document["loads"].append(
+            load | {"name": "other", "coordinate": "y", "force": repr(cart.friction - share * cart.friction)}
+        )
+    return read_scene(document)
 
 
 def is_covered(found: Trajectory, train: Train) -> bool:
@@ -110,3 +133,23 @@ def test_random_carts(seed: int) -> None:
     found = motion(train, method, 4.0)
     assert found.outcome.status == "ok"
     assert is_covered(found, train)
+
+
+@pytest.mark.parametrize("seed", [0, 5, 9, 14, 21, 30])
+def test_a_cart_in_two_parts_that_a_rod_links_moves_as_one(seed: int) -> None:
+    """Both parts rub: a constraint and one friction hold what the other friction would hold, too."""
+    train, found = linked(seed)
+    assert is_covered(replace(found, values=found.values[:, :-1]), train)
+
+
+def test_more_holds_parts_that_a_rod_links_than_is_determined() -> None:
+    train, found = linked(7)
+    assert np.abs(found.values[:, :-1] - train.stepped(found.times, 4000)).max() < 5e-3
+
+
+def linked(seed: int) -> tuple[Train, Trajectory]:
+    random = Random(f"parts {seed}")
+    train, method = drawn(random), random.choice([each for each in METHODS if each != "taylor"])
+    found = simulate(problem_of(in_two_parts(train, random), 4.0, 41), get_method(method), tolerance=1e-8)
+    assert found.outcome.status == "ok"
+    return train, found

@@ -125,14 +125,24 @@ def _pivoted(current: ModeState, rows: Sequence[int]) -> ModeState:
 
 
 def _dependent(current: ModeState, rows: Sequence[int]) -> int | None:
-    """The first row held that others before it hold as well, if there is one."""
-    held: list[Floats] = []
+    """The first row held that constraints, or others before it, hold as well, if there is one."""
+    held = [_unit(each) for each in current.kept[0]]
+    known = _rank(held)
     for row in rows:
         if current.mode.flags[row]:
-            held.append(current.facts.a[row] / (np.linalg.norm(current.facts.a[row]) or 1.0))
-            if np.linalg.matrix_rank(np.array(held), tol=ALONG) < len(held):
+            held.append(_unit(current.facts.a[row]))
+            if _rank(held) == known:
                 return row
+            known += 1
     return None
+
+
+def _unit(row: Floats) -> Floats:
+    return row / (float(np.linalg.norm(row)) or 1.0)
+
+
+def _rank(rows: Sequence[Floats]) -> int:
+    return int(np.linalg.matrix_rank(np.array(rows), tol=ALONG)) if rows else 0
 
 
 def _side_let_go(current: ModeState, row: int) -> float:
