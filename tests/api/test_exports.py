@@ -31,6 +31,7 @@ async def test_file(client: httpx.AsyncClient, form: str, media_type: str, name:
         pytest.param("latex", {"scene": "nothing"}, 404, "/scene", id="unknown scene"),
         pytest.param("latex", {}, 422, "/scene", id="no scene"),
         pytest.param("python", {"scene": "pendulum", "t_end": -1}, 422, "/t_end", id="time backwards"),
+        pytest.param("python", {"scene": "pendulum", "t_end": 5e-324}, 422, "/t_end", id="a time without parts"),
         pytest.param("python", {"scene": "pendulum", "parameters": {"x": 1}}, 404, "/parameters/x", id="parameter"),
         pytest.param("python", {"scene": "pendulum", "initial": {"x": {}}}, 404, "/initial/x", id="coordinate"),
         pytest.param("latex", {"scene": "pendulum", "formulation": "x"}, 422, "/formulation", id="formulation"),

@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+import ast
+import builtins
 import random
 import runpy
+from collections import Counter
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -18,6 +21,7 @@ from tests.simulation.constrained import G, platform
 from deltaq.errors import RequestError
 from deltaq.handout.script import comment, script
 from deltaq.handout.service import export_request
+from deltaq.language.functions import SPELLINGS
 from deltaq.mechanics.library import load_scene, scene_ids
 from deltaq.mechanics.toml import read_toml
 from deltaq.mechanics.user_text import UserText
@@ -234,6 +238,28 @@ def test_no_program_of_a_release_where_motions_jump() -> None:
     ]
 
 
+@pytest.mark.parametrize("curve", ["y = 1/cos(x)", "y = x*(1 + t)", "y = sin(2*x) + 1"])
+def test_program_begins_where_the_motion_does(curve: str, tmp_path: Path) -> None:
+    """Of a start that does not keep the constraints both take the nearest that does."""
+    scene = names_in_use({"k": 2.0}) | {"constraints": [{"name": "wire", "kind": "equation", "equation": curve}]}
+    program = executed(str(export_request({"form": "python", "scene": scene, "t_end": 1.0})["text"]), tmp_path)
+    times, q, v = program["solve"]()
+    shown = run({"scene": scene, "t_end": 1.0, "samples": len(times), "tolerance": 1e-9})
+    assert abs(q[1, 0] - 0.2) > 0.01
+    for name, values, rates in zip("xy", q, v, strict=True):
+        np.testing.assert_allclose(values, shown["coordinates"][name], atol=AGREEMENT)
+        np.testing.assert_allclose(rates, shown["rates"][name], atol=100 * AGREEMENT)
+
+
+@pytest.mark.parametrize("seconds", [1e-250, 1e-9, 0.02])
+@pytest.mark.parametrize("scene", ["pendulum", "stick-slip", "bouncing-ball", "four-bar"])
+def test_program_of_a_short_time_has_both_ends(scene: str, seconds: float, tmp_path: Path) -> None:
+    program = executed(str(export_request({"form": "python", "scene": scene, "t_end": seconds})["text"]), tmp_path)
+    times, q, _ = program["solve"]()
+    assert list(times) == [0.0, seconds]
+    assert np.isfinite(q).all()
+
+
 def test_changes_of_a_request_reach_the_program(tmp_path: Path) -> None:
     changes: dict[str, object] = {"parameters": {"l": 0.5}, "initial": {"phi": {"value": 1.2, "rate": -0.3}}}
     text = export_request({"form": "python", "scene": "pendulum", "t_end": 1.0, **changes})["text"]
@@ -269,6 +295,124 @@ def test_names_that_mean_something_in_python_stay_apart(tmp_path: Path) -> None:
     times, q, _ = executed(text, tmp_path)["solve"]()
     np.testing.assert_allclose(q[0], 0.3 * np.cos(np.sqrt(1.5) * times), atol=1e-9)
     np.testing.assert_allclose(q[1], 0.1 * np.cos(np.sqrt(0.5) * times), atol=1e-9)
+
+
+FORCES = {
+    "max": ("max(x, y, 0.1)", lambda x, y: np.maximum(np.maximum(x, y), 0.1)),
+    "min": ("min(x, 0.2)", lambda x, y: np.minimum(x, 0.2)),
+    "step": ("step(y - x)", lambda x, y: 0.5 * (1 + np.sign(y - x))),
+    "abs": ("abs(x)", lambda x, y: np.abs(x)),
+    "exp(1)": ("exp(1)*x", lambda x, y: np.e * x),
+    "sec": ("sec(x)", lambda x, y: 1 / np.cos(x)),
+}
+
+
+@pytest.mark.parametrize("name", FORCES)
+def test_functions_of_the_language_in_a_program(name: str, tmp_path: Path) -> None:
+    """f = (F(x, y) − 2 x, 0) with each function; a parameter is called e."""
+    text, force = FORCES[name]
+    scene = names_in_use({"e": 2.0}, force=text)
+    forcing = executed(str(export_request({"form": "python", "scene": scene})["text"]), tmp_path)["forcing"]
+    for x, y in ((0.3, 0.2), (-0.4, 0.5), (0.05, -0.7)):
+        np.testing.assert_allclose(forcing(0.0, [x, y], [0.0, 0.0]), [force(x, y) - 2.0 * x, 0.0], rtol=1e-15)
+
+
+@pytest.mark.parametrize("energy", ["x^2*step(x)", "x*abs(x)", "max(x, 0)^2"])
+def test_a_spring_on_one_side_in_a_program(energy: str, tmp_path: Path) -> None:
+    """The derivative of a step is no force: it stands where x² or x is zero."""
+    scene = names_in_use({"e": 2.0}, energy=energy)
+    text = str(export_request({"form": "python", "scene": scene, "t_end": 1.5})["text"])
+    times, q, _ = executed(text, tmp_path)["solve"]()
+    shown = run({"scene": scene, "t_end": 1.5, "samples": len(times), "tolerance": 1e-9})
+    np.testing.assert_allclose(q[0], np.array(shown["coordinates"]["x"])[same_times(times, shown)], atol=AGREEMENT)
+
+
+def names_in_use(parameters: dict[str, float], *, force: str = "0", energy: str = "0") -> dict[str, Any]:
+    """A particle of mass 1 at (x, y) on a spring along x, whose stiffness is the first of the parameters."""
+    spring = f"{next(iter(parameters))}*x^2/2"
+    return {
+        "format": 1,
+        "id": "names",
+        "title": {"en": "Names"},
+        "coordinates": [{"name": "x", "value": 0.3, "rate": -0.5}, {"name": "y", "value": 0.2}],
+        "parameters": [{"name": name, "value": value} for name, value in parameters.items()],
+        "bodies": [{"name": "bob", "kind": "particle", "mass": "1", "position": ["x", "y"]}],
+        "loads": [
+            {"kind": "potential", "energy": f"{spring} + {energy}"},
+            {"kind": "force", "at": "bob", "force": [force, "0"]},
+        ],
+    }
+
+
+# Programs that have everything a program may have, each with what calls its own functions and those of NumPy.
+SPRINGS = names_in_use({"k": 2.0}, energy="max(x, y, 0)^2*step(x)")["loads"]
+BOUNCE = {"name": "hit", "value": "2 + x", "then": "bounce", "restitution": "0.5"}
+RUBBING = {"kind": "friction", "name": "rubbing", "coordinate": "y", "force": "0.1*max(1 + x, 0)"}
+BOUND = {"kind": "equation", "equation": "x = 2*y"}
+ENDING = {"name": "far", "value": "2 - x"}
+WHOLE: dict[str, dict[str, Any]] = {
+    "free": {"events": [ENDING]},
+    "jumps": {"events": [BOUNCE, ENDING], "loads": [*SPRINGS, RUBBING]},
+    "bound": {"constraints": [{"name": "line", **BOUND}], "events": [ENDING]},
+    "redundant": {
+        "constraints": [{"name": "line", **BOUND}, {"name": "again", **BOUND, "equation": "x^2 = 4*y^2"}],
+    },
+}
+
+
+def given_names(block: ast.Module | ast.FunctionDef | ast.If) -> Counter[str]:
+    """How often a module or function gives each name a meaning, the functions within left out."""
+    given = Counter(argument.arg for argument in block.args.args) if isinstance(block, ast.FunctionDef) else Counter()
+    for statement in block.body:
+        match statement:
+            case ast.FunctionDef():
+                given[statement.name] += 1
+            case ast.Import() | ast.ImportFrom():
+                given.update(alias.asname or alias.name for alias in statement.names)
+            case ast.If():
+                given.update(given_names(statement))
+            case ast.Assign(targets=[target]) | ast.For(target=target):
+                stored = (part for part in ast.walk(target) if isinstance(getattr(part, "ctx", None), ast.Store))
+                given.update(part.id for part in stored if isinstance(part, ast.Name))
+    return given
+
+
+@pytest.mark.parametrize("whole", WHOLE)
+@pytest.mark.parametrize("as_what", ["parameters", "coordinates"])
+def test_every_name_means_one_thing(as_what: str, whole: str) -> None:
+    """Whatever a program calls a function or quantity of its own, a scene may call a parameter or coordinate so."""
+    scene = names_in_use({"k": 2.0}, energy="max(x, y, 0)^2*step(x)") | WHOLE[whole]
+    plain = ast.parse(str(export_request({"form": "python", "scene": scene})["text"]))
+    parts = [part for part in ast.walk(plain) if isinstance(part, ast.Name | ast.FunctionDef)]
+    names = {part.id if isinstance(part, ast.Name) else part.name for part in parts} - {"x", "y", "k", "t", *SPELLINGS}
+    wanted = sorted(name for name in names if not name.startswith(("_", "x_", "y_", "event_")))
+    for begin in range(0, len(wanted), 20):
+        check_names(with_names(scene, as_what, wanted[begin : begin + 20]))
+
+
+def with_names(scene: dict[str, Any], as_what: str, names: list[str]) -> dict[str, Any]:
+    """The scene with further parameters or coordinates of these names, all of which matter."""
+    more: dict[str, list[Any]] = {as_what: [{"name": name, "value": 1.0} for name in names]}
+    more["loads"] = [{"kind": "potential", "energy": f"x*{name}"} for name in names]
+    if as_what == "coordinates":
+        more["bodies"] = [
+            {"name": f"body_{number}", "kind": "particle", "mass": "1", "position": [name, "0"]}
+            for number, name in enumerate(names)
+        ]
+    return scene | {part: [*scene[part], *added] for part, added in more.items()}
+
+
+def check_names(scene: dict[str, Any]) -> None:
+    """Raises AssertionError where one name of the scene's program means two things."""
+    module = ast.parse(str(export_request({"form": "python", "scene": scene})["text"]))
+    given = given_names(module)
+    assert {name for name, count in given.items() if count > 1 or name in dir(builtins)} == set()
+    for function in module.body:
+        if isinstance(function, ast.FunctionDef) and "[x, y" in ast.unparse(function):
+            own = given_names(function)
+            calls = (part.func for part in ast.walk(function) if isinstance(part, ast.Call))
+            called = {part.id for part in calls if isinstance(part, ast.Name)} | {"np", *dir(builtins)}
+            assert {name for name, count in own.items() if count > 1 or name in called} == set(), function.name
 
 
 HOSTILE = [

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from typing import Literal
 
-from pydantic import Field
+from pydantic import Field, field_validator
 
 from .base import AskedLanguage, Released, SceneWithInitialValues, examples
 from .derivation import PRINCIPLE, Formulation
-from .simulation import LARGEST_SPAN
+from .simulation import LARGEST_SPAN, can_be_parted
 
 Form = Literal["latex", "markdown", "python"]
 
@@ -21,6 +21,8 @@ class ExportRequest(SceneWithInitialValues):
     release: Released = ()
     substeps: bool = Field(default=True, description="whether a document tells the substeps, too")
     lang: AskedLanguage = None
+
+    _parted = field_validator("t_end")(can_be_parted)
 
     model_config = examples({"scene": "elastic-pendulum"})
 

@@ -21,6 +21,13 @@ COLUMNS: tuple[Written, ...] = get_args(Written)
 Base64 = Annotated[str, Field(json_schema_extra={"contentEncoding": "base64"})]
 
 
+def can_be_parted(seconds: float | None) -> float | None:
+    """The seconds. Raises PydanticCustomError for fewer than `SHORTEST`."""
+    if seconds is not None and seconds < SHORTEST:
+        raise outside(seconds, SHORTEST, LARGEST_SPAN)
+    return seconds
+
+
 class SimulationRequest(SceneWithInitialValues):
     """What to simulate, how long, and how accurately."""
 
@@ -51,12 +58,7 @@ class SimulationRequest(SceneWithInitialValues):
         {"scene": "pendulum", "t_end": 5.0, "method": "rk4", "step": 0.01, "initial": {"phi": {"value": 1.0}}},
     )
 
-    @field_validator("t_end", "step")
-    @classmethod
-    def _can_be_parted(cls, seconds: float | None) -> float | None:
-        if seconds is not None and seconds < SHORTEST:
-            raise outside(seconds, SHORTEST, LARGEST_SPAN)
-        return seconds
+    _parted = field_validator("t_end", "step")(can_be_parted)
 
     @model_validator(mode="after")
     def _one_accuracy(self) -> Self:

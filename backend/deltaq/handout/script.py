@@ -20,7 +20,7 @@ from ..mechanics.jumps import jumps
 from ..mechanics.scene import Scene
 from ..mechanics.user_text import UserText
 from ..narration.derive import releases_of
-from .switching import dynamics, smooth_forcing, switches
+from .switching import SWITCHING, dynamics, smooth_forcing, switches
 from .words import Words, event_symbol
 
 TEMPLATE = """\
@@ -134,20 +134,23 @@ def right_hand_side(t, state):
     return np.concatenate([v, accelerations_and_multipliers(t, q, v)[0]])
 
 
-def correction(t, q, rows, gap):  # the least change in the metric of M that closes the gap
-    moved = np.linalg.solve(mass_matrix(t, q), rows.T)
+def correction(mass, rows, gap):  # the least change in the metric of M that closes the gap
+    moved = np.linalg.solve(mass, rows.T)
     return moved @ {solve}(rows @ moved, gap)
 
 
-def projected(t, state):  # the nearest state that keeps the constraints, by Newton's method
-    q, v = np.split(state, 2)
-    for _ in range(20):
-        gap = conditions(t, q)
-        if gap.size == 0 or np.abs(gap).max() < 1e-14:
+def projected(t, state):  # the nearest state that keeps the constraints
+    start, v = np.split(state, 2)
+    q, mass = start, mass_matrix(t, start)
+    for count in range(60 if HOLONOMIC else 0):
+        rows = constraint_matrix(t, q)[HOLONOMIC]
+        near = start if count < 30 else q  # farther off any that keeps them will do
+        moved = near - correction(mass, rows, conditions(t, q) - rows @ (q - near))
+        q, change = moved, np.abs(moved - q) / np.maximum(1.0, np.abs(q))
+        if change.max() < 1e-15:
             break
-        q = q - correction(t, q, constraint_matrix(t, q)[HOLONOMIC], gap)
     rows = constraint_matrix(t, q)
-    v = v - correction(t, q, rows, rows @ v + constraint_offset(t, q))
+    v = v - correction(mass_matrix(t, q), rows, rows @ v + constraint_offset(t, q))
     return np.concatenate([q, v])
 
 
@@ -206,6 +209,7 @@ def reaction(t, q, v):
 
 
 """
+TEMPLATES = (TEMPLATE, FREE, CONSTRAINED, LEAST, REACTIONS, SWITCHING)
 SAMPLES_PER_SECOND = 30
 
 
@@ -218,7 +222,7 @@ def script(scene: Scene, language: str, t_end: float, release: Sequence[str] = (
     releases = releases_of(system, release)
     if releases:
         _refuse(scene, Problem("release-with-impacts", "/release"), Problem("release-with-friction", "/release"))
-    words = Words(system)
+    words = Words(system, TEMPLATES)
     free = scene.free
     unpacked = {
         "unpack_values": f"[{', '.join(words.called(system.q(c.name).name) for c in free)}] = q",
@@ -233,7 +237,7 @@ def script(scene: Scene, language: str, t_end: float, release: Sequence[str] = (
         "values": repr([float(c.value) for c in free]),
         "rates": repr([float(c.rate) for c in free]),
         "t_end": repr(float(t_end)),
-        "samples": str(int(t_end * SAMPLES_PER_SECOND) + 1),
+        "samples": str(max(int(t_end * SAMPLES_PER_SECOND), 1) + 1),
         "events": "".join(_event(event, system, words, language, unpacked) for event in ending),
         "watched": f", events=[{', '.join(called)}]" if ending else "",
         "mass_matrix": words.matrix(mass_matrix(system)),

@@ -4,80 +4,69 @@ from __future__ import annotations
 
 import builtins
 import keyword
-from collections.abc import Mapping
+import re
+from collections.abc import Iterable, Mapping
+from functools import reduce
 
 import sympy as sp
+from sympy.core.sorting import ordered
 from sympy.printing.numpy import NumPyPrinter
 
 from ..derivation.system import System
 from ..language.functions import FUNCTIONS
 
-OWN = {"np", "solve_ivp", "mass_matrix", "forcing", "positions", "right_hand_side", "solve", "draw", "pyplot"}
-OF_CONSTRAINTS = {
-    "conditions",
-    "constraint_matrix",
-    "constraint_offset",
-    "constraint_drift",
-    "projected",
-    "multipliers",
-    "correction",
-}
-OF_RELEASES = {"reactions", "reaction"}
-OF_SWITCHING = {
-    "rows",
-    "friction",
-    "contacts",
-    "accelerations_and_reactions",
-    "watched",
-    "pushed",
-    "behind_impacts",
-    "settled",
-}
-LOCAL_THERE = {
-    "rates",
-    "biases",
-    "accelerations_and_multipliers",
-    "mass",
-    "rows",
-    "whole",
-    "gap",
-    "moved",
-    "states",
-    "begin",
-    "end",
-}
-LOCAL = {"t", "q", "v", "state", "times", "found", "start", "name", "curve", "row", "value", "t_end", "samples"}
-CONSTANTS = {"COORDINATES", "VALUES", "RATES", "T_END", "SAMPLES", "MULTIPLIERS", "HOLONOMIC", "FRICTIONS", "HELD"}
-OF_NUMPY = {"arcsin", "arccos", "arctan", "arctan2", "arcsinh", "arccosh", "arctanh", "pi"}
+# What the program's own code calls something where the scene's names stand, too.
+IMPORTED = {"np", "pi", "pyplot", "solve_ivp"}
+LOCAL = {"biases", "q", "rates", "row", "state", "t", "times", "v"}
+DEFINED = re.compile(r"^(?:\{.*\})?(?:def )?(\w+)(?:\(| = )", re.MULTILINE)
 RECIPROCALS = {sp.cot: sp.tan, sp.sec: sp.cos, sp.csc: sp.sin}
-TAKEN = frozenset(
-    {
-        *OWN,
-        *OF_CONSTRAINTS,
-        *OF_SWITCHING,
-        *OF_RELEASES,
-        *LOCAL,
-        *LOCAL_THERE,
-        *CONSTANTS,
-        *OF_NUMPY,
-        *FUNCTIONS,
-        *dir(builtins),
-    }
-)
+
+
+class _Printer(NumPyPrinter):  # type: ignore[misc]
+    """NumPy's functions by their plain names, few of which a scene may want for its own: e is written exp(1)."""
+
+    def __init__(self) -> None:
+        super().__init__({"fully_qualified_modules": False})
+
+    def _print_Exp1(self, _number: sp.Basic) -> str:
+        return self._called("exp", "1")
+
+    def _print_Heaviside(self, jump: sp.Heaviside) -> str:
+        return self._called("heaviside", *map(self._print, jump.args))
+
+    def _print_Max(self, largest: sp.Max) -> str:
+        return self._of_two("maximum", largest)
+
+    def _print_Min(self, smallest: sp.Min) -> str:
+        return self._of_two("minimum", smallest)
+
+    def _of_two(self, name: str, of_many: sp.Expr) -> str:
+        arguments: Iterable[str] = map(self._print, ordered(of_many.args))
+        return reduce(lambda one, two: self._called(name, one, two), arguments)
+
+    def _called(self, name: str, *arguments: str) -> str:
+        return f"{self._module_format(f'numpy.{name}')}({', '.join(arguments)})"
+
+
+OF_NUMPY = {
+    *("heaviside", "maximum", "minimum"),
+    *(name.removeprefix("numpy.") for name in _Printer().known_functions.values() if name.startswith("numpy.")),
+}
 
 
 class Words:
     """How the quantities of a system are called in the program, and the functions it needs of NumPy."""
 
-    def __init__(self, system: System) -> None:
+    def __init__(self, system: System, templates: Iterable[str]) -> None:
+        """`templates`: what the program is made of, whose functions and constants keep their names."""
         scene = system.scene
         plain = [*(p.name for p in scene.parameters), *(c.name for c in scene.coordinates)]
         wanted = {event_symbol(event.name): f"event_{event.name}" for event in scene.events}
         wanted |= {name: name for name in plain} | {system.rate(c.name).name: f"{c.name}_dot" for c in scene.free}
         wanted |= {system.acceleration(c.name).name: f"{c.name}_ddot" for c in scene.free}
         wanted |= {symbol.name: symbol.name for symbol in system.multipliers}
-        self._known = {**_distinct(wanted), system.t.name: "t"}
-        self._printer = NumPyPrinter({"fully_qualified_modules": False})
+        self._known = {**_distinct(wanted, templates), system.t.name: "t"}
+        self._printer = _Printer()
 
     @property
     def functions(self) -> list[str]:
@@ -93,9 +82,9 @@ class Words:
         return self._known[name]
 
     def text(self, expression: sp.Expr) -> str:
-        """The expression in Python, by functions that NumPy has."""
+        """The expression in Python, by functions that NumPy has; without impulses at jumps, as in δq's motions."""
         called = {symbol: sp.Symbol(self._known[symbol.name]) for symbol in expression.free_symbols}
-        plain = expression.xreplace(called).replace(_is_reciprocal, _by_its_inverse)
+        plain = expression.xreplace(called).replace(_is_reciprocal, _by_its_inverse).replace(sp.DiracDelta, _nothing)
         return str(self._printer.doprint(plain))
 
     def vector(self, column: sp.ImmutableMatrix) -> str:
@@ -121,9 +110,14 @@ def _by_its_inverse(expression: sp.Basic) -> sp.Expr:
     return 1 / RECIPROCALS[expression.func](*expression.args)
 
 
-def _distinct(wanted: Mapping[str, str]) -> dict[str, str]:
+def _nothing(*_arguments: sp.Expr) -> sp.Expr:
+    return sp.S.Zero
+
+
+def _distinct(wanted: Mapping[str, str], templates: Iterable[str]) -> dict[str, str]:
     """Each its name, or one like it where the name means something else already."""
-    taken, given = set(TAKEN), {}
+    defined = (name for template in templates for name in DEFINED.findall(template))
+    taken, given = {*IMPORTED, *LOCAL, *OF_NUMPY, *FUNCTIONS, *dir(builtins), *defined}, {}
     for symbol, proposed in wanted.items():
         name = proposed if proposed.isascii() and proposed.isidentifier() else "x"
         while keyword.iskeyword(name) or name in taken:
