@@ -75,21 +75,35 @@ def shared(place: Path, **settings: object) -> Iterator[str]:
         yield _address(place)
     finally:
         with _users(place) as users:
-            users.remove(os.getpid())
+            if os.getpid() in users:
+                users.remove(os.getpid())
             if len(users) == 1:
                 os.kill(users.pop(), signal.SIGKILL)
 
 
 @contextmanager
 def _users(place: Path) -> Iterator[list[int]]:
-    """The service's process and those who use it, nobody else changing them meanwhile; empty if there is none."""
+    """The service's process and those who use it, nobody else changing them meanwhile; empty if there is none.
+
+    Who has died has not left, and is not counted.
+    """
     place.parent.mkdir(parents=True, exist_ok=True)
     with place.with_suffix(".users").open("a+", encoding="utf-8") as file:
         fcntl.flock(file, fcntl.LOCK_EX)
-        users = _read(file)
+        service, users = _read(file)[:1], list(filter(lives, _read(file)))
+        users = users if users[:1] == service else []
         yield users
         file.truncate(0)
         json.dump(users, file)
+
+
+def lives(number: int) -> bool:
+    """Whether there is a process of this number that has not ended."""
+    try:
+        state = Path(f"/proc/{number}/stat").read_text(encoding="utf-8").rpartition(")")[2].split()[0]
+    except (FileNotFoundError, ProcessLookupError):
+        return False
+    return state not in "XZ"
 
 
 def _read(file: TextIO) -> list[int]:
