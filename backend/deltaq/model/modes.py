@@ -102,6 +102,31 @@ class Modes:
         eqs = self.model.eqs
         return any(eqs.symbols.time in each.free_symbols for each in eqs.events)
 
+    @cached_property
+    def single_facts(self) -> tuple[slice, ...]:
+        """Where single numbers stand among `facts`: w, γ, F₀, g, e, s of kinks, s of pins, λ."""
+        step, degrees = self.facts_of_row, self.model.layout.degrees
+        limits = self.rows * step
+        gaps = limits + self.bounded
+        kinks = gaps + 3 * len(self.contacts)
+        pins = kinks + len(self.kinks)
+        reactions = pins + self.pins
+        return (
+            slice(degrees, limits, step),
+            slice(degrees + 1, limits, step),
+            slice(limits, gaps),
+            slice(gaps, kinks, 3),
+            slice(gaps + 2, kinks, 3),
+            slice(kinks, pins),
+            slice(pins, reactions),
+            slice(reactions, reactions + self.rows),
+        )
+
+    @cached_property
+    def facts_of_row(self) -> int:
+        """How many numbers a, w, γ and the direction of its reaction are of a row."""
+        return 2 * self.model.layout.degrees + 2
+
     def name_of(self, row: int) -> str:
         """The name of a friction, or a switch as the language of scenes has it."""
         return (*self.frictions, *self.switches)[row]

@@ -19,6 +19,7 @@ from ..model.tape import Tape
 from .derivatives import accelerations
 from .event import event_values
 from .kernels.audit import DEEPEST, GROUP, AuditWorkspace, Blind, Path, Rules, inspect, survey_times
+from .kernels.compiler import KernelCalls
 from .kernels.intervals import Ranges, TapeArrays
 from .kernels.sight import Boxes, Meshes, Room, Slopes, find_blind, find_unsure
 from .kernels.watch import NODES, NODES_OF_SERIES, places_of_watch
@@ -126,12 +127,13 @@ class Audit:
         all_seeds = self.seeds(joined.rows(joined.groups), threshold, self._nearest(joined))
         seeds = np.split(all_seeds, np.searchsorted(joined.groups, joined.firsts[1:]))
         workspace, blind, spare = _make_workspace(self.tape_arrays.codes.size), _make_blind(), np.zeros((2, width))
+        call = KernelCalls()
         found: list[BlindStretch] = []
         for mesh, path, own, parameters in zip(meshes, _paths(joined), seeds, joined.parameters, strict=True):
             ranges.inputs_low[width:] = ranges.inputs_high[width:] = parameters
             workspace.looked[0] = blind.found[0] = 0
             rules = Rules(self.limit, threshold, float(mesh.stride))
-            inspect(self.tape_arrays, ranges, path, own, rules, workspace, spare, blind)
+            call(inspect, self.tape_arrays, ranges, path, own, rules, workspace, spare, blind)
             columns = (column[: blind.found[0]].tolist() for column in (blind.starts, blind.ends, blind.steps))
             found += [BlindStretch(*each) for each in zip(*columns, strict=True)]
         return tuple(found)

@@ -59,7 +59,7 @@ def mesh_of(problem: Problem, found: Run) -> Mesh:
     event, width = found.event, 2 * problem.degrees
     times, states = found.mesh_times, found.mesh_states
     if event is not None and times.size:
-        before = int(np.searchsorted(times, event.time))
+        before = int(times.searchsorted(event.time))
         times = np.concatenate([times[:before], [event.time]])
         states = np.concatenate([states[:before], event.state[None, :width]])
     return Mesh(problem, float(found.times[0]), times, states, found.stride)

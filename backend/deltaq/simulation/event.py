@@ -10,13 +10,16 @@ import math
 import sys
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
+from typing import Any, TypeAlias
 
 import numpy as np
 
 from .derivatives import accelerations
-from .kernels.root import find_root
+from .kernels.root import NONE, UNSEEN, find_fall
 from .kernels.watch import Watch
 from .problem import Floats, Problem
+
+Call: TypeAlias = Callable[..., Any]  # runs a kernel, given before its arguments
 
 ROUNDS, PARTS = 12, 32  # each round looks at so many parts of what the one before left: 32¹² > 2⁵³
 CLOSER = 6  # rounds for a minimum, each an eighth of the part before; its value is flat
@@ -124,27 +127,19 @@ def first_event(problem: Problem, watch: Watch, t_end: float) -> Event | None:
     return min(found, key=lambda event: event.time, default=None)
 
 
-def quick_event(problem: Problem, watch: Watch, t_end: float) -> Event | None:
+def quick_event(problem: Problem, watch: Watch, t_end: float, call: Call) -> Event | None:
     """`first_event` for runs that go on behind events: from the values that the kernel saw (`kernels.root`).
 
-    Those that fell between two places that the kernel looked at are left to it.
+    Those that fell between two places that the kernel looked at are left to it. Kernels are run by `call`.
     """
-    places, which = np.nonzero(watch.values <= 0.0)
-    if not len(places) or np.count_nonzero(watch.least <= 0.0) > len(set(which.tolist())):
-        return first_event(problem, watch, t_end) if (watch.least <= 0.0).any() else None
-    last = int(places[0])
-    if last == 0:
+    width = watch.states.shape[1]
+    state, trial, values = np.empty(width), np.empty(width), np.empty(watch.functions)
+    index, x = call(find_fall, watch, problem.degrees, state, trial, values)
+    if index == UNSEEN:
         return first_event(problem, watch, t_end)
-    start, span = float(watch.times[0]), float(watch.times[-1] - watch.times[0])
-    b, state, values = float(watch.nodes[last]), np.empty(watch.states.shape[1]), np.empty(watch.functions)
-    near = max(math.ulp(b), 0.5 * math.ulp(start + span * b) / span if span > 0.0 else 0.0)
-    found: list[tuple[float, int, Floats]] = []
-    for j in which[places == last].tolist():
-        x = find_root(watch, problem.degrees, j, last, near, state, values)
-        found.append((x, j, state.copy()))
-    x, index, state = min(found, key=lambda each: each[:2])
-    time = start + span * x
-    return Event(index, time, state, 0.0, 0.0) if time <= t_end else None
+    first, last = float(watch.times[0]), float(watch.times[-1])
+    time = first + (last - first) * x
+    return Event(index, time, state, 0.0, 0.0) if index != NONE and time <= t_end else None
 
 
 def approaches(problem: Problem, watch: Watch, t_end: float) -> tuple[Approach, ...]:

@@ -73,13 +73,13 @@ class _Record:
 
     def add(self, problem: Problem, found: Run) -> None:
         """The samples of a stretch behind its first, which is its beginning, and what it took."""
-        states = found.states[1:].copy()
-        if states.size and states.shape[1] % 2:
-            states[:, -1] += self.work
-        self.out[self.filled : self.filled + len(states)] = states
-        if found.reactions is not None:
-            self.held[self.filled - 1 : self.filled + len(states)] = found.reactions.multipliers
+        states, first = found.states[1:], self.filled
         self.filled += len(states)
+        self.out[first : self.filled] = states
+        if states.shape[1] % 2:
+            self.out[first : self.filled, -1] += self.work
+        if found.reactions is not None:
+            self.held[first - 1 : self.filled] = found.reactions.multipliers
         self.steps += found.result.steps
         self.rejected += found.result.rejected
         self.evaluations += found.result.evaluations
@@ -184,10 +184,9 @@ def _too_often(record: _Record) -> _End | None:
 def _problem(current: ModeState, taken: int) -> Problem:
     """The problem of the next stretch."""
     problem = current.problem
-    own = problem.parameters[: len(problem.parameters) - len(current.mode.parameters)]
     return replace(
         problem,
-        parameters=(*own, *current.mode.parameters),
+        parameters=current.parameters,
         values=tuple(current.q.tolist()),
         rates=tuple(current.v.tolist()),
         step_limit=max(problem.step_limit - taken, 1),
@@ -241,7 +240,7 @@ def _next(current: ModeState, event: Event, record: _Record) -> ModeState | None
         record.switches += 1
         record.switched.append(event.time)
     else:
-        left = np.array([*after.q, *after.v, record.work][: event.state.size])
+        left = np.array([*after.q.tolist(), *after.v.tolist(), record.work][: event.state.size])
         is_last = kind == "slide" and current.modes.is_pin(event.index)
         record.transitions.append(Transition(name, after.time, kind, reached, left, loss, ends_many=is_last))
     return after

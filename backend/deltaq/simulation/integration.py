@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from ..model.pushes import Places
 from ..model.recurrences import nudged
 from .constraints import Finish, block, solved_in
+from .kernels.compiler import KernelCalls
 from .kernels.constraints import constrained_motion, constrained_phase
 from .kernels.explicit_runge_kutta import integrate
 from .kernels.implicit_runge_kutta import integrate_implicit
@@ -47,7 +48,8 @@ class KernelArguments:
     """What every kernel is given: the right-hand side, how to step, what to watch for, and where samples belong.
 
     out[i] becomes the state at times[i], as far as the run comes: `times` has shape (samples,), `out` (samples, width).
-    Series need to know whether the run `is_long`, their order, and whether they are nudged.
+    Series need to know whether the run `is_long`, their order, and whether they are nudged. Kernels that are run for
+    each stretch between events are so by `call`.
     """
 
     problem: Problem
@@ -59,6 +61,7 @@ class KernelArguments:
     is_long: bool
     order: int | None
     is_nudged: bool
+    call: KernelCalls
 
 
 @singledispatch
@@ -71,9 +74,9 @@ def run_kernel(scheme: object, _arguments: KernelArguments) -> Result:
 def _explicit(scheme: Tableau, arguments: KernelArguments) -> Result:
     weights = explicit_weights(scheme)
     workspace = make_workspace(arguments.problem.state, weights)
-    return integrate(
-        arguments.motion, weights, arguments.control, arguments.watch, workspace, arguments.times, arguments.out
-    )
+    given = arguments.motion, weights, arguments.control, arguments.watch, workspace, arguments.times, arguments.out
+    found: Result = arguments.call(integrate, *given)
+    return found
 
 
 @run_kernel.register
@@ -210,6 +213,7 @@ class Workspace:
     """
 
     def __init__(self) -> None:
+        self.call = KernelCalls()
         self._motions: dict[bool, Motion] = {}
         self._watch: Watch | None = None
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import NamedTuple
 
@@ -71,9 +72,13 @@ class ModeState:
     @once
     def row(self) -> Floats:
         """Inputs of the model's functions: shape (inputs,)."""
+        return np.array([*self.q.tolist(), *self.v.tolist(), self.time, *self.parameters])
+
+    @property
+    def parameters(self) -> tuple[float, ...]:
+        """The scene's own, and those of the mode."""
         of_mode = self.mode.parameters
-        own = self.problem.parameters[: -len(of_mode)]
-        return np.array([*self.q.tolist(), *self.v.tolist(), self.time, *own, *of_mode])
+        return (*self.problem.parameters[: -len(of_mode)], *of_mode)
 
     @property
     def is_finite(self) -> bool:
@@ -84,18 +89,8 @@ class ModeState:
     def facts(self) -> Facts:
         """The rows with the flags of the mode."""
         n, modes, found = len(self.q), self.modes, self.modes.facts.at(self.row)
-        numbers, rows, step = found.tolist(), modes.rows, 2 * n + 2
-        limits = rows * step
-        gaps = limits + modes.bounded
-        kinks = gaps + 3 * len(modes.contacts)
-        pins = kinks + len(modes.kinks)
-        reactions = pins + modes.pins
-        vectors = found[:limits].reshape(rows, step)
-        return Facts(
-            vectors[:, :n], vectors[:, n + 2 :], numbers[n:limits:step], numbers[n + 1 : limits : step],
-            numbers[limits:gaps], numbers[gaps:kinks:3], numbers[gaps + 2 : kinks : 3],
-            numbers[kinks:pins], numbers[pins:reactions], numbers[reactions : reactions + rows],
-        )  # fmt: skip
+        vectors = found[: modes.rows * modes.facts_of_row].reshape(modes.rows, modes.facts_of_row)
+        return Facts(vectors[:, :n], vectors[:, n + 2 :], *map(found.tolist().__getitem__, modes.single_facts))
 
     @once
     def _system(self) -> LinearSystem:
@@ -136,6 +131,8 @@ class ModeState:
     @property
     def touching(self) -> list[int]:
         """The contacts that are closed, but for rounding."""
+        if not self.modes.contacts:
+            return []
         size = self.closed * self.size_of_places
         return [j for j, gap in enumerate(self.facts.gaps) if gap <= self.scale(j) * size]
 
@@ -192,6 +189,11 @@ class ModeState:
     def with_flags(self, flags: tuple[float, ...]) -> ModeState:
         """The same state with other rows held."""
         return self.within(self.mode._replace(flags=flags))
+
+    def with_rows(self, slips: Sequence[float], held: Sequence[bool]) -> ModeState:
+        """The same state with these signs of what slips, and these rows held."""
+        kinks, _, _, offsets = self.mode
+        return self.within(Mode(kinks, tuple(slips), tuple(map(float, held)), offsets))
 
     def pushed(self, row: int, change: float) -> ModeState:
         """The state behind an impulse along a row that changes its rate w by so much."""

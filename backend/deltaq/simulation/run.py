@@ -214,6 +214,7 @@ class _Task:
             is_long,
             steps.order,
             steps.is_nudged,
+            workspace.call,
         )
         start = perf_counter()
         result = run_kernel(method.scheme, arguments)
@@ -332,12 +333,12 @@ def _watched(
     if not watch.functions or result.outcome == HELD:
         return result, None, ()
     in_modes = problem.model.is_in_modes
-    event = (quick_event if in_modes else first_event)(problem, watch, t_end)
+    event = quick_event(problem, watch, t_end, arguments.call) if in_modes else first_event(problem, watch, t_end)
     if event is None:
         fine = result._replace(outcome=FINE) if result.outcome == EVENT else result
         return fine, None, () if in_modes else approaches(problem, watch, t_end)
     close = APART * (arguments.times[1] - arguments.times[0])
-    count = max(int(np.searchsorted(times, event.time - close)), 1)
+    count = max(int(times.searchsorted(event.time - close)), 1)
     return result._replace(outcome=EVENT, reached=event.time, samples=count), event, ()
 
 

@@ -186,9 +186,9 @@ def _without_rate(current: ModeState, row: int) -> ModeState:
     lift = float(along @ moved)
     if not lift > 0.0:
         return current
-    v = current.v + moved * (-current.facts.w[row] / lift)
-    is_tiny = np.abs(v - current.v).max() <= TINY * current.size_of_rates
-    return current.at(current.time, current.q, v) if is_tiny else current
+    v, most = current.v + moved * (-current.facts.w[row] / lift), TINY * current.size_of_rates
+    is_tiny = all(abs(change) <= most for change in (v - current.v).tolist())
+    return current.with_rates(v) if is_tiny else current
 
 
 def _met(current: ModeState, contact: int) -> ModeEvent:
@@ -323,11 +323,11 @@ def _resolved(current: ModeState, closed: frozenset[int], released: int | None, 
     held = _at_rest(current, closed, released, come)
     facts, size = current.facts, current.size_of_rates
     slips = [
-        s if held[row] or row >= modes.first_pin or abs(facts.w[row]) <= HARDLY * size else float(np.sign(facts.w[row]))
+        s if held[row] or row >= modes.first_pin or abs(facts.w[row]) <= HARDLY * size else _sign(facts.w[row])
         for row, s in enumerate(current.mode.slips)
     ]
     if released is not None and released < bounded:
-        slips[released] = -float(np.sign(facts.reactions[released])) or 1.0
+        slips[released] = -_sign(facts.reactions[released]) or 1.0
     at_zero = [row for row in range(bounded) if held[row] or row == released]
     resting = [row for row in range(bounded, modes.rows) if held[row] or row == released]
     for row in range(modes.rows):
@@ -338,17 +338,16 @@ def _resolved(current: ModeState, closed: frozenset[int], released: int | None, 
         across = _held_by_others(modes, facts, held, sticking)
         held[:bounded] = [sticks and not across[k] for k, sticks in enumerate(sticking)]
         slips = [across[k] or slip for k, slip in enumerate(slips)]
-        flags = tuple(float(h) for h in held)
-        trial = current.within(current.mode._replace(flags=flags, slips=tuple(slips)))
-        lost = _lost(trial, held)
+        found = current.with_rows(slips, held)
+        lost = _lost(found, held)
         if lost is None:
             break
         held[lost] = False
         if lost < bounded:
             sticking[lost] = False
-            slips[lost] = _left(trial, lost, has_come=lost == come)
-    found = current.within(current.mode._replace(flags=tuple(map(float, held)), slips=tuple(slips)))
-    found = trial if found.mode == trial.mode else found  # of which all is known already
+            slips[lost] = _left(found, lost, has_come=lost == come)
+    else:
+        found = current.with_rows(slips, held)
     return settled(found, [row for row in at_zero if not across[row]], resting)
 
 
@@ -373,7 +372,12 @@ def _left(current: ModeState, row: int, *, has_come: bool) -> float:
     """The side to which a friction or switch goes that is not held after all."""
     if unkept(current, [row == k for k in range(current.modes.rows)]) == row:
         return side_left_to(current, row, has_come=has_come)
-    return -float(np.sign(current.facts.reactions[row]))
+    return -_sign(current.facts.reactions[row])
+
+
+def _sign(value: float) -> float:
+    """1 or −1; what is neither positive nor negative is its own."""
+    return 1.0 if value > 0.0 else -1.0 if value < 0.0 else value
 
 
 def _held_by_others(modes: Modes, facts: Facts, held: list[bool], sticking: list[bool]) -> list[float]:

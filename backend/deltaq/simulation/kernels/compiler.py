@@ -140,6 +140,32 @@ class Kernel:
         """What other kernels call."""
         return self.compiled
 
+    def for_the_same_types(self) -> Callable[..., Any]:
+        """What runs it, as just now, with arguments of exactly the same types, without looking at those again.
+
+        To find out the types of many arrays takes longer than a short run.
+        """
+        if "compiled" not in self.__dict__:
+            return self
+        known: Callable[..., Any] = _machine().only_code(self.compiled)
+        return known
+
+
+class KernelCalls:
+    """Runs kernels for one who gives each of them arguments of the same types every time."""
+
+    def __init__(self) -> None:
+        self._known: dict[object, Callable[..., Any]] = {}
+
+    def __call__(self, kernel: Any, *arguments: Any) -> Any:
+        """What the kernel returns. Raises MachineCodeNeededError as it does."""
+        known = self._known.get(kernel)
+        if known is not None:
+            return known(*arguments)
+        found = kernel(*arguments)
+        self._known[kernel] = kernel.for_the_same_types()
+        return found
+
 
 def kernel(function: F) -> F:
     """A function that is compiled for itself and kept on disk; sums are not reordered (see `machine`)."""

@@ -7,12 +7,15 @@ the middle.
 
 from __future__ import annotations
 
+import numpy as np
+
 from .compiler import inline, kernel, runtime_int
 from .motion import Floats
 from .pointer import call
 from .watch import Watch
 
 MOST_ROOT_STEPS = 100
+NONE, UNSEEN = -1, -2  # instead of the number of a value
 
 
 @inline
@@ -59,7 +62,7 @@ def part_of_way(x1: float, f1: float, x2: float, f2: float, x3: float, f3: float
     return f1 / (f2 - f1) * f3 / (f2 - f3) + (x3 - x1) / (x2 - x1) * f1 / (f3 - f1) * f2 / (f3 - f2)
 
 
-@kernel
+@inline
 def find_root(watch: Watch, degrees: int, index: int, place: int, near: float, state: Floats, values: Floats) -> float:
     """A place of the step with a value ≤ 0, as near to one with a positive one as `near`, and the `state` there.
 
@@ -86,3 +89,55 @@ def find_root(watch: Watch, degrees: int, index: int, place: int, near: float, s
     root = x1 if f1 <= 0.0 else x2
     state_within(watch, root, state)
     return float(root)
+
+
+@inline
+def first_node_below(watch: Watch, index: int) -> int:
+    """The first node at which the value of this number is no longer positive; as many as there are if it is."""
+    for k in range(watch.nodes.size):
+        if watch.values[k, index] <= 0.0:
+            return k
+    return int(watch.nodes.size)
+
+
+@inline
+def first_nodes_below(watch: Watch) -> tuple[int, bool]:
+    """The same of all values together, and whether one of them falls between nodes, or did so in a step before."""
+    first, is_unseen = runtime_int(watch.nodes.size), False
+    for j in range(watch.functions):
+        node = first_node_below(watch, j)
+        is_unseen = is_unseen or (node == watch.nodes.size and watch.least[j] <= 0.0)
+        first = min(first, node)
+    return first, is_unseen
+
+
+@inline
+def nearest_in_step(watch: Watch, x: float) -> float:
+    """How near to a place of the step, 0 to 1, another one can be told from it, and the times at both."""
+    start, size = watch.times[0], watch.times[watch.times.size - 1] - watch.times[0]
+    near = np.spacing(x)
+    return float(max(near, 0.5 * np.spacing(start + size * x) / size) if size > 0.0 else near)
+
+
+@kernel
+def find_fall(watch: Watch, degrees: int, state: Floats, trial: Floats, values: Floats) -> tuple[int, float]:
+    """Which watched value falls through zero first in the step, at what place of it, 0 to 1, and the `state` there.
+
+    NONE if none does; UNSEEN if the nodes do not tell. `state` and `trial`, shape (width,), and `values`, shape
+    (functions,), are written.
+    """
+    node, is_unseen = first_nodes_below(watch)
+    if is_unseen or node == 0:
+        return UNSEEN, 0.0
+    if node == watch.nodes.size:
+        return NONE, 0.0
+    near = nearest_in_step(watch, watch.nodes[node])
+    found, place = runtime_int(NONE), np.inf
+    for j in range(watch.functions):
+        if watch.values[node, j] <= 0.0:
+            x = find_root(watch, degrees, j, node, near, trial, values)
+            if x < place:
+                found, place = j, x
+                for d in range(state.size):
+                    state[d] = trial[d]
+    return found, place
