@@ -11,8 +11,12 @@ from numpy.typing import NDArray
 
 
 class MotionPlaces(NamedTuple):
-    """Where M, f, A (row by row) and γ stand among the outputs of `Model.motion`; `mass` has shape (n, n)."""
+    """Where M, f, A (row by row) and γ stand among the outputs of `Model.motion`.
 
+    `mass` has shape (n, n); `triangle` are the row and the column of each entry of M, shape (entries,) each.
+    """
+
+    triangle: tuple[NDArray[np.intp], NDArray[np.intp]]
     mass: NDArray[np.intp]
     forces: slice
     rows: slice
@@ -58,4 +62,5 @@ class Layout:
         mass = np.zeros((n, n), dtype=np.intp)
         mass[lower, right] = mass[right, lower] = np.arange(size)
         behind = first + m * n
-        return MotionPlaces(mass, slice(size, size + n), slice(first, behind), slice(behind, behind + m))
+        forces, rows, gamma = slice(size, size + n), slice(first, behind), slice(behind, behind + m)
+        return MotionPlaces((lower, right), mass, forces, rows, gamma)

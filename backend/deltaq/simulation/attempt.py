@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
-from functools import cached_property
+from functools import cache, cached_property, partial
 
 import numpy as np
 
@@ -16,13 +16,14 @@ from .hybrid import run_on
 from .integration import Flag
 from .kernels.motion import CANCELLED, LOCKED, MANY_EVENTS, NEWTON_FAILED, SINGULAR, STEP_LIMIT, STIFF, UNSETTLED
 from .method import Method
+from .mode_state import ModeState
 from .outcome import CHATTERS, NO_DIRECTION, OUT_OF_REACH, SLIDES
 from .pieces import BlindStretch, Pieces
 from .problem import Floats, Problem
 from .refinement import FINER, LAST, Refinement
 from .run import Run, Steps, run
 from .side_by_side import side_by_side
-from .transitions import with_signs
+from .transitions import begun, with_signs
 
 TRIES = 6
 LOOSE = 1e-5  # a tolerance from which on two runs that seem to meet it are compared with a third
@@ -102,7 +103,7 @@ class Integrator:
 
     def _run(self, steps: Steps) -> Run:
         if self.modes is not None:
-            return run_on(self.problem, self.modes, self.method, self.times, self.cancelled, steps)
+            return run_on(self.problem, self.modes, self.method, self.times, self.cancelled, steps, begin=self._begin)
         return run(self.problem, self.method, self.times, self.cancelled, steps)
 
     def _finer(self, steps: Steps) -> Run:
@@ -120,6 +121,11 @@ class Integrator:
     def _shaken(self) -> int:
         """The pattern by which the run of a pair that is not the answer is shaken."""
         return 0 if self.modes is None else 1
+
+    @cached_property
+    def _begin(self) -> Callable[[float], ModeState] | None:
+        """The start in its mode by what counts as closed (`begun`): no run changes it, most have the same."""
+        return None if self.modes is None else cache(partial(begun, self.problem, self.modes))
 
     @property
     def judge(self) -> Problem:

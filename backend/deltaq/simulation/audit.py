@@ -8,9 +8,11 @@ ends before it and one that begins behind it.
 
 from __future__ import annotations
 
+import sys
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cache, cached_property
+from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
@@ -125,7 +127,8 @@ class Audit:
         joined = _Joined.of(meshes)
         threshold, ranges, width = self.threshold(tolerance), self._ranges_of(), 2 * self.problem.degrees + 1
         all_seeds = self.seeds(joined.rows(joined.groups), threshold, self._nearest(joined))
-        seeds = np.split(all_seeds, np.searchsorted(joined.groups, joined.firsts[1:]))
+        parts = joined.groups.searchsorted([*joined.firsts, len(joined.times)]).tolist()
+        seeds = [all_seeds[i:j] for i, j in pairwise(parts)]
         workspace, blind, spare = _make_workspace(self.tape_arrays.codes.size), _make_blind(), np.zeros((2, width))
         call = KernelCalls()
         found: list[BlindStretch] = []
@@ -224,7 +227,7 @@ class Audit:
         with np.errstate(divide="ignore"):
             of_events = np.zeros((len(rows), len(model.seen_events))) if values is None else threshold / values
         found = np.hstack([of_motion, np.repeat(guides, len(rows), axis=0), of_constraints, of_events])
-        return np.asarray(np.nan_to_num(found, nan=np.finfo(float).max, posinf=np.finfo(float).max))
+        return np.asarray(np.nan_to_num(found, nan=sys.float_info.max, posinf=sys.float_info.max))
 
     def _leaves(self, threshold: float) -> list[tuple[float, float, float]]:
         """Intervals of time with the largest step in each (0: neighbouring numbers with a jump between), in order.
@@ -389,9 +392,9 @@ def _jumps(times: Floats, q: Floats, v: Floats, shortest: float) -> Floats:
     `times` has shape (states,), `q` and `v`, which is q̇, shape (states, n).
     """
     found = np.zeros_like(q)
-    h = np.diff(times)[:, None]
+    h = (times[1:] - times[:-1])[:, None]
     with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
-        slopes = np.diff(q, axis=0) / h
+        slopes = (q[1:] - q[:-1]) / h
         ends = (2.0 * v[:-1] + 4.0 * v[1:] - 6.0 * slopes) / h
         begins = (6.0 * slopes - 4.0 * v[:-1] - 2.0 * v[1:]) / h
         apart = np.abs(ends[:-1] - begins[1:])

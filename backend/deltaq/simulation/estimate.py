@@ -47,7 +47,8 @@ class Estimate:
     tolerance: absolute below 1 and relative above. `event` is the error of the time of the event that ended both runs;
     the last of `errors` is that of the state then. `doubtful` is an event that may have happened or not, as far as the
     errors tell. `stop` is the error of where friction holds the motion. `multipliers`, shape (samples, m), are the
-    errors of the multipliers of constraints, where there are any.
+    errors of the multipliers of constraints, where there are any. `scales` are the time scales τ of the coordinates,
+    shape (n, 1), None where they are not those of the whole finer run.
     """
 
     errors: Floats
@@ -57,6 +58,7 @@ class Estimate:
     stop: float = 0.0
     doubtful: EventOccurrence | None = None
     multipliers: Floats | None = None
+    scales: Floats | None = None
 
 
 def estimate(problem: Problem, coarse: Run, fine: Run, factor: float) -> Estimate:
@@ -66,8 +68,8 @@ def estimate(problem: Problem, coarse: Run, fine: Run, factor: float) -> Estimat
     """
     n = problem.degrees
     times, states, others = _together(problem, coarse, fine)
-    difference = np.abs(others - states)
-    together = np.hypot(difference[:n], _time_scales(problem, times, states) * difference[n : 2 * n])
+    difference, scales = np.abs(others - states), _time_scales(problem, times, states)
+    together = np.hypot(difference[:n], scales * difference[n : 2 * n])
     together = np.minimum(together, TURNING * _largest_within(difference[:n], max(2, len(times) // FAR)))
     factors = _factors(problem, factor, difference[:n], np.abs(states[:n]))
     differences = np.vstack([together, difference[n : 2 * n]])
@@ -86,7 +88,8 @@ def estimate(problem: Problem, coarse: Run, fine: Run, factor: float) -> Estimat
     of_event = _of_event(problem, coarse, fine, factor, doubts[:, -1])
     doubtful = _doubtful(problem, coarse, fine, times, doubts)
     reactions = _of_multipliers(problem, coarse, fine, difference[: 2 * n], factors)
-    return Estimate(errors.max(axis=0), worst, horizon, of_event, stop, doubtful, reactions)
+    of_all = scales if len(times) == len(fine.times) else None
+    return Estimate(errors.max(axis=0), worst, horizon, of_event, stop, doubtful, reactions, of_all)
 
 
 def says_more(problem: Problem, coarse: Run, fine: Run, factor: float, known: Estimate) -> bool:
@@ -127,7 +130,7 @@ def rounding_matters(problem: Problem, fine: Run, found: Estimate) -> bool:
     times, states = fine.times, fine.states.T
     if len(times) < 2 or not fine.conditioning > 0.0:
         return False
-    scales = _time_scales(problem, times, states)
+    scales = _time_scales(problem, times, states) if found.scales is None else found.scales
     times_added = max((1.0, float(len(fine.transitions)), *(problem.t_end / scales[scales > 0.0])))
     sizes = np.abs(states[: problem.degrees])
     share = np.max(sizes / np.maximum(1.0, sizes))

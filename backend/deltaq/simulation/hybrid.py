@@ -6,7 +6,9 @@ no step runs over a kink. Rebounds that pile up end in rest. What an impact take
 
 from __future__ import annotations
 
+import math
 from collections import deque
+from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 from functools import partial
 
@@ -96,15 +98,18 @@ def run_on(
     cancelled: Flag,
     steps: Steps,
     parts: AuditedParts | None = None,
+    begin: Callable[[float], ModeState] | None = None,
 ) -> Run:
     """The run of a problem in modes, with samples at `times`, shape (samples,), as far as it comes.
 
     With `parts`, those of it that may have missed a force are run again before it goes on behind them. One that is
     `shaken` has its rates moved by a little more than rounding does, at its start and behind each event: impacts part
-    neighbours, and two runs that round alike would know nothing of it.
+    neighbours, and two runs that round alike would know nothing of it. `begin` is `begun` of the problem, where several
+    runs have the same.
     """
     try:
-        current = with_offsets(_shaken(begun(problem, modes, _closed(steps)), 0, steps.shaken))
+        start = (begin or partial(begun, problem, modes))(_closed(modes, steps))
+        current = with_offsets(_shaken(start, 0, steps.shaken))
     except SlidingError as sliding:
         return _not_begun(problem, times, steps, modes.name_of(sliding.row))
     width, count = current.problem.state.size, len(problem.reactions)
@@ -183,14 +188,8 @@ def _too_often(record: _Record) -> _End | None:
 
 def _problem(current: ModeState, taken: int) -> Problem:
     """The problem of the next stretch."""
-    problem = current.problem
-    return replace(
-        problem,
-        parameters=current.parameters,
-        values=tuple(current.q.tolist()),
-        rates=tuple(current.v.tolist()),
-        step_limit=max(problem.step_limit - taken, 1),
-    )
+    problem, values, rates = current.problem, tuple(current.q.tolist()), tuple(current.v.tolist())
+    return problem.going_on(current.parameters, values, rates, max(problem.step_limit - taken, 1))
 
 
 def _end_of_part(current: ModeState, found: Run, times: Floats) -> ModeState | None:
@@ -203,7 +202,10 @@ def _end_of_part(current: ModeState, found: Run, times: Floats) -> ModeState | N
 
 def _ahead(times: Floats, start: float) -> Floats:
     """The samples of a stretch: its beginning and those behind it."""
-    return np.concatenate([[start], times[times.searchsorted(start, side="right") :]])
+    behind = times[times.searchsorted(start, side="right") :]
+    found = np.empty(len(behind) + 1)
+    found[0], found[1:] = start, behind
+    return found
 
 
 def _after(steps: Steps, start: float) -> Steps:
@@ -246,13 +248,13 @@ def _next(current: ModeState, event: Event, record: _Record) -> ModeState | None
     return after
 
 
-def _closed(steps: Steps) -> float:
+def _closed(modes: Modes, steps: Steps) -> float:
     """How small gaps count as closed: smaller ones than for runs that are shaken.
 
     Of contacts that follow each other faster and faster the last ones count as one at a time. What that leaves out is a
     part of what shaken runs leave out, and so of the difference of the two.
     """
-    return NARROW * TOUCHING if steps.shaken == 0 else TOUCHING
+    return NARROW * TOUCHING if modes.contacts and steps.shaken == 0 else TOUCHING
 
 
 def _shaken(current: ModeState, number: int, pattern: int) -> ModeState:
@@ -260,7 +262,7 @@ def _shaken(current: ModeState, number: int, pattern: int) -> ModeState:
 
     What is held stays as it is, and constraints are kept. Where forces exceed all numbers the run tells so itself.
     """
-    if pattern == 0 or any(current.mode.flags) or not np.isfinite(current.accelerations).all():
+    if pattern == 0 or any(current.mode.flags) or not all(map(math.isfinite, current.accelerations.tolist())):
         return current
     size = np.abs(current.v) + current.time * np.abs(current.accelerations)
     change = SHAKE * size * np.cos(2.0 * np.arange(len(size)) + pattern * (number + 2.0))

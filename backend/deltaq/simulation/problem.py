@@ -59,6 +59,15 @@ class Problem:
     moved: Moved | None = None
     released: Released | None = None
 
+    def going_on(
+        self, parameters: tuple[float, ...], values: tuple[float, ...], rates: tuple[float, ...], step_limit: int
+    ) -> Problem:
+        """The same problem from another state on, in another mode; `replace` would look at all the rest, too."""
+        found = object.__new__(Problem)
+        changed = {"parameters": parameters, "values": values, "rates": rates, "step_limit": step_limit}
+        found.__dict__.update(self.__dict__, **changed)
+        return found
+
     @property
     def is_constrained(self) -> bool:
         return bool(self.model.layout.multipliers)

@@ -23,8 +23,7 @@ def sensitivities(layout: Layout, table: Floats, sizes: Floats, rank: int) -> tu
     `table`, shape (states, outputs), is what the model says of some states; a change of qᵢ counts relative to `sizes`,
     shape (states, n). `rank` constraints are independent.
     """
-    n, m = layout.degrees, len(layout.multipliers)
-    rows, columns = np.tril_indices(n)
+    n, m, (rows, columns) = layout.degrees, len(layout.multipliers), layout.motion.triangle
     system = linear_system(layout, table)
     matrix = np.zeros((len(table), n + m, n + m))
     matrix[:, :n, :n], matrix[:, n:, :n], matrix[:, :n, n:] = system.mass, system.rows, -system.rows.transpose(0, 2, 1)

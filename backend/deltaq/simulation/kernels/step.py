@@ -51,16 +51,10 @@ class Workspace(NamedTuple):
 def make_workspace(state: Floats, weights: Weights) -> Workspace:
     """The workspace of a method, at an initial state of shape (width,)."""
     width, derivatives = state.size, weights.b.size + 1 + weights.extra_c.size
-    line = np.zeros(width)
-    return Workspace(
-        np.zeros((derivatives, width)),
-        line.copy(),
-        state.copy(),
-        line.copy(),
-        line.copy(),
-        line.copy(),
-        np.zeros((3 + weights.dense.shape[0], width)),
-    )
+    stage, old, new, compensation, new_compensation = np.zeros((5, width))
+    old[:] = state
+    extension = np.zeros((3 + weights.dense.shape[0], width))
+    return Workspace(np.zeros((derivatives, width)), stage, old, new, compensation, new_compensation, extension)
 
 
 @inline
