@@ -46,12 +46,6 @@ def compiled_kernel(function: Function) -> Any:
     return made
 
 
-def only_code(compiled: Any) -> Any:
-    """The machine code of a kernel that was made for one set of types, which it does not look at; else the kernel."""
-    made = list(compiled.overloads.values())
-    return made[0].entry_point if len(made) == 1 else compiled
-
-
 @cache
 def compiled_part(function: Function, *, is_inlined: bool) -> PartDispatcher:
     """A part of kernels, known to the kernels alone; always inlined, or always called."""
