@@ -195,6 +195,11 @@ class ModeState:
         kinks, _, _, offsets = self.mode
         return self.within(Mode(kinks, tuple(slips), tuple(map(float, held)), offsets))
 
+    def offset_by(self, offsets: tuple[float, ...]) -> ModeState:
+        """The same state with other offsets of watched values."""
+        kinks, slips, flags, _ = self.mode
+        return self.within(Mode(kinks, slips, flags, offsets))
+
     def pushed(self, row: int, change: float) -> ModeState:
         """The state behind an impulse along a row that changes its rate w by so much."""
         along = self.moved_by(self.facts.a[row])

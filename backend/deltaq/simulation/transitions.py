@@ -440,7 +440,7 @@ def with_offsets(current: ModeState) -> ModeState:
     What moves with the time alone, a table say, is somewhere else by what rounding does to the time.
     """
     modes, mode = current.modes, current.mode
-    plain = current if not any(mode.offsets) else current.within(mode._replace(offsets=(0.0,) * modes.watched))
+    plain = current if not any(mode.offsets) else current.offset_by((0.0,) * modes.watched)
     values, moved = plain.watched.tolist(), _moved_by_time(plain)
     ending = len(modes.ending)
     first = ending + len(modes.kinks)
@@ -455,4 +455,4 @@ def with_offsets(current: ModeState) -> ModeState:
             room *= current.scale(place - last) if place >= last else 1.0
         room += moved[place]
         offsets.append(0.0 if place < ending or value > room else room - min(value, 0.0))
-    return current.within(mode._replace(offsets=tuple(offsets)))
+    return plain.offset_by(tuple(offsets)) if any(offsets) else plain
