@@ -20,10 +20,14 @@ export function numbersOf(packed) {
 }
 
 /** @typedef {Answer["t"]} Column */
+/** @typedef {NonNullable<Answer["multipliers"]>[string]} Partial */
 /** @typedef {NonNullable<Answer["positions"]>[string]} Rows */
 
 /** @param {Column} column */
 const asNumbers = (column) => (typeof column === "string" ? numbersOf(column) : column);
+
+/** The same where not all is determined: null is not a number. @param {Partial} column */
+const asPartial = (column) => (typeof column === "string" ? numbersOf(column) : column.map((value) => value ?? NaN));
 
 /** @template C, W @param {Record<string, C> | null | undefined} columns @param {(column: C) => W} change */
 const each = (columns, change) =>
@@ -50,8 +54,8 @@ export function unpacked(answer) {
     rates: each(rates, asNumbers),
     positions: each(positions, asRows),
     loads: each(loads, asRows),
-    multipliers: each(multipliers, asNumbers),
-    friction: each(friction, ({ force, largest }) => ({ force: asNumbers(force), largest: asNumbers(largest) })),
+    multipliers: each(multipliers, asPartial),
+    friction: each(friction, ({ force, largest }) => ({ force: asPartial(force), largest: asNumbers(largest) })),
     energy: energy && { ...each(columns, asNumbers), drift, works },
   };
   return /** @type {Trajectory} */ (made);

@@ -3722,10 +3722,10 @@ export interface components {
             reached: boolean | null;
             /**
              * Multipliers
-             * @description of the multipliers of constraints: the estimated absolute error of each at each sample
+             * @description of the multipliers of constraints: the estimated absolute error of each at each sample; null where they are `indeterminate`
              */
             multipliers?: {
-                [key: string]: number[];
+                [key: string]: (number | null)[];
             } | null;
         };
         /**
@@ -4563,7 +4563,8 @@ export interface components {
          * @description The force of a load with dry friction along its coordinate, and the largest that could hold, at the samples.
          */
         FrictionAnswer: {
-            force: components["schemas"]["Column"];
+            /** @description null where it is `indeterminate` */
+            force: components["schemas"]["PartialColumn"];
             largest: components["schemas"]["Column"];
         };
         /**
@@ -4758,6 +4759,32 @@ export interface components {
              * @default []
              */
             constraint_impulses: components["schemas"]["ConstraintFormula"][];
+        };
+        /**
+         * IndeterminateSpan
+         * @description A part of the time in which more holds at rest than the equations of motion tell apart.
+         *
+         *     Friction that sticks, contacts that rest and constraints, dependent on each other, have no single forces.
+         */
+        IndeterminateSpan: {
+            /**
+             * Names
+             * @description loads with friction, multipliers and contacts whose forces are not determined
+             * @example [
+             *       "R"
+             *     ]
+             */
+            names: string[];
+            /**
+             * Start
+             * @description in seconds
+             */
+            start: number;
+            /**
+             * End
+             * @description in seconds
+             */
+            end: number;
         };
         /**
          * Inequality
@@ -5916,6 +5943,7 @@ export interface components {
             /** Coordinate */
             coordinate: string;
         };
+        PartialColumn: (number | null)[] | string;
         /**
          * PeriodicMotion
          * @description A periodic motion on a branch, stable or not.
@@ -7740,10 +7768,10 @@ export interface components {
             } | null;
             /**
              * Multipliers
-             * @description of constraints, as far as they are unique (of a distance the force, positive in tension), and Z of each name in `release`, in the direction in which it grows
+             * @description of constraints, as far as they are unique (of a distance the force, positive in tension), and Z of each name in `release`, in the direction in which it grows; null where they are `indeterminate`
              */
             multipliers?: {
-                [key: string]: components["schemas"]["Column"];
+                [key: string]: components["schemas"]["PartialColumn"];
             } | null;
             /**
              * Reactions
@@ -7757,6 +7785,12 @@ export interface components {
              * @description multipliers and reactions that are not unique, since constraints depend on one another
              */
             undetermined?: string[] | null;
+            /**
+             * Indeterminate
+             * @description when forces are not determined, since more sticks or rests than the motion needs
+             * @default []
+             */
+            indeterminate: components["schemas"]["IndeterminateSpan"][];
             /**
              * Drift
              * @description largest amount by which a holonomic constraint is not kept

@@ -69,6 +69,16 @@ function end(trace, t, point) {
   trace.points.push(point);
 }
 
+/**
+ * A polyline in pieces: it is broken where its curve has no value, midway between two corners.
+ * @param {Trace} trace @param {(t: number) => number} at  the curve's values @returns {Trace[]}
+ */
+export function unbroken({ t, points }, at) {
+  const ends = t.flatMap((end, i) => (Number.isFinite(at((end + (t[i + 1] ?? end)) / 2)) ? [] : [i + 1]));
+  const starts = [0, ...ends];
+  return starts.map((from, i) => ({ t: t.slice(from, ends[i]), points: points.slice(from, ends[i]) }));
+}
+
 /** The part of a chord at which it is nearest to a point. @param {Pixel} point @param {Pixel} from @param {Pixel} to */
 function partOf([x, y], [ax, ay], [bx, by]) {
   const [dx, dy] = [bx - ax, by - ay];

@@ -119,10 +119,9 @@ function within(curve, from, to) {
  * Reactions along the motion: multipliers of constraints, and what holds what was released; those of a unit share a row.
  * @param {Scene} scene @param {Trajectory} trajectory @param {Look} look @returns {Row[]}
  */
-function reactionRows(scene, { t: times, multipliers, reactions }, { hidden }) {
+function reactionRows(scene, trajectory, { hidden }) {
+  const { t: times, multipliers, reactions } = trajectory;
   if (!multipliers) return [];
-  const { coordinates, parameters } = scene;
-  const known = new Map([...coordinates, ...parameters].map(({ name, latex }) => [name, latex || name]));
   /** @type {Map<string, Row>} */
   const rows = new Map();
   Object.entries(multipliers).forEach(([name, values], k) => {
@@ -132,8 +131,8 @@ function reactionRows(scene, { t: times, multipliers, reactions }, { hidden }) {
     row.curves.push({
       key: `reaction-${name}`,
       name,
-      latex: known.has(name) ? `Z_{${known.get(name)}}` : symbolOf(name),
-      className: `q-${coordinates.length + k}`,
+      latex: symbolOfForce(scene, trajectory, name),
+      className: `q-${scene.coordinates.length + k}`,
       values,
       times,
       at: smooth(times, values),
@@ -153,7 +152,8 @@ function reactionRows(scene, { t: times, multipliers, reactions }, { hidden }) {
  * The force R of each friction between ±F⁰, which it reaches where what sticks begins to slip.
  * @param {Scene} scene @param {Trajectory} trajectory @param {Look} look @returns {Row[]}
  */
-function frictionRows(scene, { t: times, friction }, { hidden }) {
+function frictionRows(scene, trajectory, { hidden }) {
+  const { t: times, friction } = trajectory;
   const { coordinates, constraints, loads } = scene;
   /** The coordinate that a friction acts on, or one of those that it is a sum of. @param {string} name */
   const slipping = (name) => {
@@ -179,18 +179,30 @@ function frictionRows(scene, { t: times, friction }, { hidden }) {
       wrapped: false,
       hidden: hidden.includes(`${key}-${name}`),
     });
-    const index = several ? `_{${k + 1}}` : "";
+    const symbol = symbolOfForce(scene, trajectory, name);
+    const most = symbol.replace("R", "F^0");
     const curves = [
-      curve("friction", `R${index}`, force),
-      curve("most", `F^0${index}`, largest),
+      curve("friction", symbol, force),
+      curve("most", most, largest),
       curve(
         "least",
-        `-F^0${index}`,
+        `-${most}`,
         largest.map((value) => -value),
       ),
     ];
     return { key: `friction${k}`, unit: CONJUGATE[along?.unit ?? ""] ?? "", least: 0, curves };
   });
+}
+
+/**
+ * What a friction, a multiplier or a reaction is called in the plots.
+ * @param {Scene} scene @param {Trajectory} trajectory @param {string} name
+ */
+export function symbolOfForce({ coordinates, parameters }, { friction }, name) {
+  const frictions = Object.keys(friction ?? {});
+  if (frictions.includes(name)) return frictions.length > 1 ? `R_{${frictions.indexOf(name) + 1}}` : "R";
+  const released = [...coordinates, ...parameters].find((one) => one.name === name);
+  return released ? `Z_{${released.latex || name}}` : symbolOf(name);
 }
 
 /** What works through a displacement of this unit. @type {Record<string, string>} */

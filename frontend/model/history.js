@@ -1,6 +1,6 @@
 /** A motion as still pictures over time, for paper: one for each row of curves, with the numbers on its axes. */
 
-import { traced } from "./curve.js";
+import { traced, unbroken } from "./curve.js";
 import { rowsOf } from "./curves.js";
 import { polyline } from "./drawing/geometry.js";
 import { scaleOf } from "./figure/phase.js";
@@ -29,8 +29,15 @@ export function picturesOf(scene, trajectory) {
       { apart: 24, least },
     );
     const lines = solid.map(({ latex, className, dash, times, at }) => {
-      const { points } = traced((t) => [time.pixel(t), up.pixel(at(t))], times);
-      return { latex, className, dash, path: polyline(points) };
+      const trace = traced((t) => [time.pixel(t), up.pixel(at(t))], times);
+      return {
+        latex,
+        className,
+        dash,
+        path: unbroken(trace, at)
+          .map(({ points }) => polyline(points))
+          .join(""),
+      };
     });
     return { key, unit, lines, columns: time.ticks, rows: up.ticks };
   });

@@ -1,6 +1,6 @@
 /** How rows of curves are drawn over one time axis. */
 
-import { traced } from "./curve.js";
+import { traced, unbroken } from "./curve.js";
 import { slackTimes } from "./curves.js";
 import { spanAt } from "./interpolation.js";
 import { folded } from "./look.js";
@@ -64,7 +64,9 @@ export function tracesOf(rows, trajectory, palette, frame) {
   const scales = scalesOf(rows, frame);
   return rows.flatMap((row, r) =>
     row.curves.filter(isShown).flatMap((curve) => {
-      const { t } = traced((t) => scales[r](t, curve.at(t)), curve.times);
+      const whole = traced((t) => scales[r](t, curve.at(t)), curve.times);
+      // Between pieces a corner without a value breaks the line.
+      const t = unbroken(whole, curve.at).flatMap((piece, i) => (i ? [NaN, ...piece.t] : piece.t));
       const straight = { x: t, y: t.map(curve.at) };
       const { x, y } = curve.wrapped ? folded(straight.x, straight.y) : straight;
       const axis = { xaxis: "x", yaxis: r === 0 ? "y" : `y${r + 1}` };

@@ -74,8 +74,8 @@ const roundingBy = (errors) => (errors ? (/** @type {number} */ i) => TOGETHER *
 /** A quantity as it is shown. @param {readonly number[]} values @param {Quantity["doubt"]} doubt @param {readonly number[]} [rates] @returns {Quantity} */
 function quantity(values, doubt, rates) {
   const stride = Math.ceil(values.length / SOME);
-  const few = values.filter((_, i) => i % stride === 0 || i === values.length - 1);
-  const [low, high] = usual(few.sort((a, b) => a - b));
+  const few = values.filter((value, i) => Number.isFinite(value) && (i % stride === 0 || i === values.length - 1));
+  const [low, high] = few.length ? usual(few.sort((a, b) => a - b)) : [0, 0];
   return {
     values,
     rates,

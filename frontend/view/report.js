@@ -2,7 +2,9 @@
 
 import { html, nothing } from "lit-html";
 import { live } from "lit-html/directives/live.js";
+import { prose } from "./formula.js";
 import { icon } from "./icons.js";
+import { indeterminateIn } from "../model/indeterminate.js";
 import { duration, fixed, significant } from "../model/numbers.js";
 import { caveatsOf, largestError } from "../model/trajectory.js";
 
@@ -42,6 +44,7 @@ function status(view) {
   if (!trajectory) return html`<p class="status">${state.simulating ? t("status.running") : nothing}</p>`;
   return html`
     ${warning(view)}
+    ${indeterminate(view)}
     <p class="status ${state.simulating ? "busy" : ""}">${facts(trajectory, view).map((fact) => html`<span title=${fact.help ?? nothing}>${fact.text}</span>`)}</p>
   `;
 }
@@ -76,6 +79,12 @@ function facts(trajectory, { state, t, methodTitle }) {
 export function caveats({ state, t }) {
   const { trajectory, simulating } = state;
   return trajectory ? caveatsOf(simulating ? { ...trajectory, coarse: false } : trajectory, t) : [];
+}
+
+/** Forces that the motion does not determine. @param {View} view */
+function indeterminate({ state: { scene, trajectory, place }, t }) {
+  const told = scene && trajectory ? indeterminateIn(trajectory, scene, t, place.lang) : [];
+  return told.map((sentence) => html`<p class="note">${prose(sentence)}</p>`);
 }
 
 /** Why a motion is incomplete and what helps. @param {View} view */

@@ -19,6 +19,7 @@ from deltaq.derivation.system import System
 from deltaq.derivation.verification import random_points, verified_step
 from deltaq.mechanics.document import read_scene
 from deltaq.mechanics.scene import Scene
+from deltaq.mechanics.writing import write_scene
 from deltaq.narration.derive import narrated
 from deltaq.narration.outcome import missing
 
@@ -196,3 +197,47 @@ def test_the_multiplier_has_the_letter_that_the_scene_gives_it() -> None:
     assert told["result"]["constraints"][0]["multiplier"]["latex"] == "S"
     steps = {step["rule"]: step for chapter in told["chapters"] for step in chapter["steps"]}
     assert steps["action"]["latex"].startswith(r"\begin{aligned}\mathcal{S} &= ")
+
+
+def on_a_line(left: list[str], right: list[str], start: tuple[float, float], **constraint: str) -> Scene:
+    """Two masses that move along one line, x(0) and z(0) given, and what binds them."""
+    bodies = (("a", "M", left), ("b", "m", right))
+    return read_scene(
+        {
+            "dimension": len(left),
+            "coordinates": [{"name": n, "value": v, "unit": "m"} for n, v in zip("xz", start, strict=True)],
+            "parameters": [{"name": n, "value": 2.0} for n in ("m", "M", "F", "l", "c")],
+            "bodies": [{"name": n, "kind": "particle", "mass": m, "position": r} for n, m, r in bodies],
+            "constraints": [{"name": "rod", **constraint}] if constraint else [],
+        }
+    )
+
+
+ROD = {"kind": "distance", "from": "a", "to": "b", "length": "l"}
+ON_A_LINE = [
+    pytest.param(on_a_line(["x", "0"], ["z", "0"], (0.0, 2.0), **ROD), -1, id="from left to right"),
+    pytest.param(on_a_line(["x", "0"], ["z", "0"], (2.0, 0.0), **ROD), 1, id="from right to left"),
+    pytest.param(on_a_line(["l", "x"], ["l", "z"], (0.0, 2.0), **ROD), -1, id="upright"),
+    pytest.param(on_a_line(["0", "0", "x"], ["0", "0", "z"], (0.0, 2.0), **ROD), -1, id="in space"),
+    pytest.param(
+        on_a_line(["x", "0"], ["z", "0"], (0.0, 2.0), kind="equation", equation="sqrt((z - x)^2) = l"), 1, id="a root"
+    ),
+]
+
+
+@pytest.mark.parametrize("formulation", ["dalembert-lagrange", "hamilton"])
+@pytest.mark.parametrize(("scene", "sign"), ON_A_LINE)
+def test_a_rod_along_a_line_pulls_its_ends_together(scene: Scene, sign: int, formulation: str) -> None:
+    """M ẍ = S for the mass on the left: a distance |z − x| has no slope at zero, which the rod keeps it from."""
+    system, derivation = derive(scene, formulation)
+    assert [step.id for step in derivation.steps() if not step.verified] == []
+    first, multiplier = result_of(system).equations["x"], system.multiplier(system.conditions[0])
+    assert sp.expand(first).coeff(multiplier) == sign
+
+
+def test_a_damper_along_a_line_has_no_signs() -> None:
+    """R = c/2 ṡ² is the same whichever way the length is counted."""
+    document = write_scene(on_a_line(["x", "0"], ["z", "0"], (0.0, 2.0)))
+    document["loads"] = [{"kind": "damper", "name": "oil", "from": "a", "to": "b", "coefficient": "c"}]
+    system, _ = derive(read_scene(document), "dalembert-lagrange")
+    assert not any(each.has(sp.sign, sp.Abs) for each in result_of(system).equations.values())

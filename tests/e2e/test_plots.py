@@ -136,3 +136,40 @@ def test_names_of_curves_keep_off_each_other_on_a_phone(lecture: Lecture, scene:
         last = legend.locator("> *").filter(visible=True).last.bounding_box()
         assert last is not None
         assert last["x"] + last["width"] <= box["x"] + box["width"] + 1
+
+
+LINKED = {
+    "format": 1,
+    "id": "linked",
+    "title": "Two blocks on a rod",
+    "coordinates": [{"name": "x", "value": 0.0}, {"name": "z", "value": 1.0}],
+    "bodies": [
+        {"name": "left", "kind": "particle", "mass": "2", "position": ["x", "0"]},
+        {"name": "right", "kind": "particle", "mass": "1", "position": ["z", "0"]},
+    ],
+    "constraints": [{"kind": "distance", "name": "rod", "from": "left", "to": "right", "length": "1"}],
+    "loads": [
+        {"kind": "force", "name": "push", "at": "left", "force": ["4*sin(t)", "0"]},
+        {"kind": "friction", "name": "first", "coordinate": "x", "force": "2"},
+        {"kind": "friction", "name": "second", "coordinate": "z", "force": "1"},
+    ],
+}
+
+
+def test_forces_that_are_not_determined_are_told_and_not_drawn(sources: Lecture) -> None:
+    """Both blocks stick up to 4 sin t = 3, t = 0.848: R₁, R₂ and λ are dashes before, and numbers behind it."""
+    page = sources.page
+    page.goto(f"{sources.address}scene?lang=en")
+    fragment = page.evaluate("scene => import('/model/own.js').then(own => own.fragmentOf(scene))", LINKED)
+    own = page.evaluate("import('/model/own.js').then(own => own.OWN)")
+    for time, seen in ((0.5, "–"), (2.0, "−2")):
+        page.goto("about:blank")  # an address that differs in its fragment alone is the same page
+        page.goto(f"{sources.address}scene?scene={own}&lang=en&at={time}{fragment}")
+        page.locator(".plots.ready .reading").first.wait_for(state="attached")
+        note = page.locator(".report .note")
+        expect(note).to_contain_text("Statically indeterminate")
+        expect(note).to_contain_text("first from 0.00 to 0.85 s")
+        expect(page.locator('[data-curve="friction-first"] + .reading')).to_contain_text(seen)
+    gaps = page.evaluate(f"{PLOTLY}.data.filter(trace => trace.y.some(Number.isNaN)).map(trace => trace.name)")
+    assert sorted(gaps) == ["friction-first", "friction-second", "reaction-lambda"]
+    assert sources.complaints == []

@@ -29,6 +29,7 @@ test("the page asks for planes and has plain numbers", async () => {
 
 test("numbers that are plain already stay, and no sample has no columns", () => {
   const plain = { columns: "numbers", t: [0, 1], coordinates: { x: [1, 2] }, rates: { x: [0, 0] }, positions: { P: [[1, 2], [3, 4]] }, loads: {}, energy: { kinetic: [1, 2], works: false, drift: 0 } };
+  assert.deepEqual(unpacked(/** @type {any} */ ({ ...plain, multipliers: { rod: [1, null] }, friction: { ground: { force: [null, 2], largest: [3, 3] } } })).multipliers, { rod: [1, NaN] });
   assert.deepEqual(unpacked(/** @type {any} */ (plain)), { ...plain, multipliers: undefined, friction: undefined });
   assert.deepEqual(unpacked(/** @type {any} */ ({ columns: "planes", t: "", positions: { P: "" } })).positions, { P: [] });
 });

@@ -1,7 +1,13 @@
 import { strict as assert } from "node:assert";
+import { readFileSync } from "node:fs";
 import { test } from "node:test";
+import { translator } from "../../frontend/model/catalog.js";
 import { rowsOf, slackTimes } from "../../frontend/model/curves.js";
-import { domainsOf, layoutOf, marginsOf, marksOf, timeScale, tracesOf } from "../../frontend/model/plots.js";
+import { picturesOf } from "../../frontend/model/history.js";
+import { indeterminateIn } from "../../frontend/model/indeterminate.js";
+import { tableOf } from "../../frontend/model/picture/table.js";
+import { domainsOf, isShown, layoutOf, marginsOf, marksOf, timeScale, tracesOf } from "../../frontend/model/plots.js";
+import { frictionsAt, multipliersAt } from "../../frontend/model/trajectory.js";
 import { scene, trajectory } from "./fixtures.js";
 
 const palette = { ink: "black", muted: "gray", grid: "silver", paper: "white", of: (/** @type {string} */ name) => `colour of ${name}` };
@@ -34,6 +40,49 @@ for (const [coordinate, unit] of [["y", "N"], ["phi", "N m"], ["y - 2", "N"], ["
     const row = rowsOf(rubbed, { ...trajectory, friction }).find((one) => one.key === "friction0");
     assert.equal(row?.unit, unit);
   });
+
+/** A force that is not determined between two events, whose times stand twice. */
+const broken = () => {
+  const force = [1, 2, NaN, NaN, 5, 6];
+  return { ...trajectory, t: [0, 1, 1, 3, 3, 4], coordinates: {}, rates: {}, energy: null, friction: { rubs: { force, largest: force.map(() => 9) } }, multipliers: { rod: force } };
+};
+
+test("a curve is broken where its force is not determined, and reaches the events on both sides", () => {
+  const rows = rowsOf(scene, /** @type {any} */ (broken()));
+  for (const name of ["friction-rubs", "reaction-rod"]) {
+    const trace = tracesOf(rows, /** @type {any} */ (broken()), /** @type {any} */ (palette), FRAME).find((one) => one.name === name);
+    const drawn = /** @type {any} */ (trace).x.map((/** @type {number} */ x, /** @type {number} */ i) => [x, /** @type {any} */ (trace).y[i]]);
+    const at = drawn.findIndex((/** @type {number[]} */ [, y]) => !Number.isFinite(y));
+    assert.ok(drawn.every((/** @type {number[]} */ [, y], /** @type {number} */ i) => Number.isFinite(y) === (i !== at)));
+    assert.deepEqual([drawn[0], drawn.at(-1)], [[0, 1], [4, 6]]);
+    assert.ok(Math.abs(drawn[at - 1][0] - 1) < 1e-9 && Math.abs(drawn[at + 1][0] - 3) < 1e-9, JSON.stringify(drawn));
+  }
+  const still = picturesOf(scene, /** @type {any} */ (broken())).flatMap(({ lines }) => lines);
+  assert.deepEqual(still.map(({ path }) => path.split("M").length - 1), [2, 2]);
+});
+
+test("values in a gap are dashes, and no arrow is drawn there", () => {
+  const motion = /** @type {any} */ (broken());
+  assert.deepEqual([0.5, 2, 3.5].map((t) => Number.isFinite(frictionsAt(motion, t).rubs)), [true, false, true]);
+  assert.deepEqual([0.5, 2, 3.5].map((t) => Number.isFinite(multipliersAt(motion, t).rod)), [true, false, true]);
+  const csv = tableOf(rowsOf(scene, motion), isShown).split("\r\n");
+  assert.deepEqual(csv.slice(1, 5).map((line) => line.split(",").slice(0, 3)), [["0", "1", "1"], ["1", "", ""], ["1", "", ""], ["3", "5", "5"]]);
+});
+
+test("forces that are not determined are named as in the plots, with when and why", () => {
+  const page = (/** @type {string} */ lang) => translator(JSON.parse(readFileSync(new URL(`../../backend/deltaq/narration/locales/${lang}/page.json`, import.meta.url), "utf8")));
+  const events = [{ name: "wall", title: { de: "Wand für 3 $", en: "wall" } }];
+  const span = (/** @type {number} */ start, /** @type {number} */ end, names = ["a", "rod", "wall"]) => ({ names, start, end });
+  const said = (/** @type {string} */ lang, /** @type {any} */ told) =>
+    indeterminateIn(/** @type {any} */ ({ ...trajectory, friction: { a: {}, b: {} }, ...told }), /** @type {any} */ ({ ...scene, events }), page(lang), lang);
+  assert.deepEqual(said("en", { indeterminate: [] }), []);
+  const [one] = said("en", { indeterminate: [span(0, 4)] });
+  assert.match(one, /^Statically indeterminate throughout: \$R_\{1\}\$, \$\\mathit\{rod\}\$, the contact force \(“wall”\)\. /);
+  assert.match(said("de", { indeterminate: [span(0.5, 1)] })[0], /^Statisch unbestimmt von 0,50 bis 1,00 s: \$R_\{1\}\$, .*„Wand für 3 ＄“/);
+  const several = said("en", { indeterminate: [span(0.5, 1), span(1, 2, ["b"]), span(3, 4)] });
+  assert.deepEqual(several.map((sentence) => sentence.split(":")[0]), ["Statically indeterminate in 2 spans of time, first from 0.50 to 1.00 s", "Statically indeterminate from 1.00 to 2.00 s"]);
+  assert.match(said("en", { undetermined: ["lambda_1", "lambda_2"], indeterminate: [] })[0], /^Not unique, .*: \$\\lambda_\{1\}\$, \$\\lambda_\{2\}\$\. /);
+});
 
 for (const [height, ticks] of [[700, 4], [300, 4], [240, 3], [130, 2], [20, 2]])
   test(`in plots of ${height} pixels an axis has ${ticks} ticks at most`, () => {

@@ -35,7 +35,7 @@ from deltaq.simulation.problem import Problem as Started
 from deltaq.simulation.service import problem_of, run, run_at_once, run_meanwhile, warm
 
 FIELDS = {
-    *("status", "reason", "remedy", "event", "events", "method", "choice", "columns", "t"),
+    *("status", "reason", "remedy", "event", "events", "indeterminate", "method", "choice", "columns", "t"),
     *("t_reached", "trusted_until", "condition", "cost"),
     *("coordinates", "rates", "positions", "loads", "energy", "error"),
 }

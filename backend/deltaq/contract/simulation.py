@@ -72,8 +72,10 @@ class SimulationRequest(SceneWithInitialValues):
         return USUAL_TOLERANCE if self.step is None and self.tolerance is None else self.tolerance
 
 
-# As `columns` of the answer says: numbers, or little-endian doubles where base64 or planes were asked for.
+# As `columns` of the answer says: numbers, or little-endian doubles where base64 or planes were asked for. What is not
+# determined in a part of the time is null there, packed not a number.
 Column = TypeAliasType("Column", tuple[float, ...] | Base64)
+PartialColumn = TypeAliasType("PartialColumn", tuple[float | None, ...] | Base64)
 VectorColumn = TypeAliasType("VectorColumn", tuple[tuple[float, ...], ...] | Base64)
 
 
@@ -101,8 +103,10 @@ class ErrorEstimate(Answer):
     worst: float | None = Field(description="largest of all, absolute below 1, relative above")
     tolerance: float | None = Field(description="as it was asked for")
     reached: bool | None = Field(description="whether the error stays below it; null where nothing was estimated")
-    multipliers: dict[str, tuple[float, ...]] | None = Field(
-        None, description="of the multipliers of constraints: the estimated absolute error of each at each sample"
+    multipliers: dict[str, tuple[float | None, ...]] | None = Field(
+        None,
+        description="of the multipliers of constraints: the estimated absolute error of each at each sample; null where"
+        " they are `indeterminate`",
     )
 
 
@@ -148,8 +152,21 @@ class TransitionAnswer(Answer):
 class FrictionAnswer(Answer):
     """The force of a load with dry friction along its coordinate, and the largest that could hold, at the samples."""
 
-    force: Column
+    force: PartialColumn = Field(description="null where it is `indeterminate`")
     largest: Column
+
+
+class IndeterminateSpan(Answer):
+    """A part of the time in which more holds at rest than the equations of motion tell apart.
+
+    Friction that sticks, contacts that rest and constraints, dependent on each other, have no single forces.
+    """
+
+    names: tuple[str, ...] = Field(
+        description="loads with friction, multipliers and contacts whose forces are not determined", examples=[["R"]]
+    )
+    start: float = Field(description="in seconds")
+    end: float = Field(description="in seconds")
 
 
 class Cost(Answer):
@@ -186,15 +203,18 @@ class SimulationAnswer(Answer):
     friction: dict[str, FrictionAnswer] | None = Field(
         None, description="by load, with `loads`: what acts, and F₀ up to which it can hold"
     )
-    multipliers: dict[str, Column] | None = Field(
+    multipliers: dict[str, PartialColumn] | None = Field(
         None,
         description="of constraints, as far as they are unique (of a distance the force, positive in tension), and Z of"
-        " each name in `release`, in the direction in which it grows",
+        " each name in `release`, in the direction in which it grows; null where they are `indeterminate`",
     )
     reactions: dict[str, ReactionKind] | None = Field(None, description="what each of the `multipliers` is")
     undetermined: tuple[str, ...] | None = Field(
         None,
         description="multipliers and reactions that are not unique, since constraints depend on one another",
+    )
+    indeterminate: list[IndeterminateSpan] = Field(
+        [], description="when forces are not determined, since more sticks or rests than the motion needs"
     )
     drift: float | None = Field(None, description="largest amount by which a holonomic constraint is not kept")
     moved: dict[str, MovedValue] | None = Field(

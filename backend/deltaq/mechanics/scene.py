@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from itertools import chain
 from types import MappingProxyType
@@ -24,6 +24,7 @@ from .dependence import dependence_problems, random_points
 from .drawing import Drawing
 from .event import Event
 from .guide import Guide
+from .lengths import with_signed_roots
 from .loads import Load
 from .material import Material
 from .mechanics import Mechanics
@@ -210,8 +211,10 @@ class Scene:
 
     @cached_property
     def conditions(self) -> tuple[Condition, ...]:
-        """The expressions that the constraints keep at zero, in their order."""
-        return tuple(constraint.condition(self.places) for constraint in self.constraints)
+        """The expressions that the constraints keep at zero, in their order; distances along a line have a sign."""
+        found = tuple(constraint.condition(self.places) for constraint in self.constraints)
+        points = tuple(random_points(self.start, [coordinate.name for coordinate in self.coordinates])) if found else ()
+        return tuple(replace(each, value=with_signed_roots(each.value, self.start, points)) for each in found)
 
     @property
     def degrees_of_freedom(self) -> int:

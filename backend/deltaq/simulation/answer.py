@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
+from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ..mechanics.reaction_units import reaction_unit
 from ..mechanics.scene import Scene
@@ -13,10 +15,11 @@ from ..mechanics.units import UNITS, dimension_of
 from ..mechanics.user_text import plainly
 from ..model.model import Observation
 from .choice import Choice
-from .columns import WRITERS, Column, Writer
+from .columns import WRITERS, Writer, as_numbers
 from .constraints import Reactions
 from .estimate import Estimate
 from .friction import FrictionForce
+from .indeterminate import IndeterminateForces
 from .outcome import Outcome
 from .problem import Floats, Moved, Problem
 from .request import Request
@@ -29,32 +32,40 @@ NOTICED = 1e-9  # a change of an initial value, relative to it or to 1, that is 
 UNKNOWN_ERROR = 1e-12  # to round by where no error estimate was asked for
 
 
+@dataclass(frozen=True)
+class Acting:
+    """What acts along a motion: the power `watts`, shape (samples,), `frictions` by load, and what is indeterminate."""
+
+    watts: Floats
+    frictions: Mapping[str, FrictionForce]
+    indeterminate: IndeterminateForces
+
+
 def answer(
     request: Request,
     choice: Choice,
     problem: Problem,
     trajectory: Trajectory,
     seen: Observation,
-    watts: Floats,
+    acting: Acting,
     compile_time: float,
-    frictions: Mapping[str, FrictionForce],
 ) -> Document:
     """The answer to a request as plain data. All numbers are finite, and rounded to what their error supports.
 
-    `watts` is the power at the samples, shape (samples,).
+    Forces are left out where they are not determined.
     """
     errors = trajectory.estimate.errors if trajectory.estimate else np.full(len(trajectory.times), UNKNOWN_ERROR)
     column = WRITERS[request.columns]
     parts: Document = _curves(request, problem, trajectory, seen, errors, column)
     if not request.include.isdisjoint({"energy", "power"}):
-        parts["energy"] = _energy(request, trajectory, seen, watts, errors)
+        parts["energy"] = _energy(request, trajectory, seen, acting.watts, errors)
     if "error" in request.include and trajectory.estimate:  # asked for, it is there
-        parts["error"] = _error(request, problem, trajectory, trajectory.estimate)
+        parts["error"] = _error(request, problem, trajectory, trajectory.estimate, acting.indeterminate)
     parts |= _constrained(request, problem, trajectory)
-    if "loads" in request.include and frictions:
-        parts["friction"] = _friction(frictions, column)
+    if "loads" in request.include and acting.frictions:
+        parts["friction"] = _friction(acting.frictions, trajectory.times, acting.indeterminate, column)
     if "multipliers" in request.include and trajectory.reactions:
-        parts["multipliers"] = _multipliers(problem, trajectory.reactions, trajectory.estimate, column)
+        parts["multipliers"] = _multipliers(problem, trajectory, trajectory.reactions, acting.indeterminate, column)
         parts["reactions"] = _reactions(request.scene, problem)
     return {
         "status": trajectory.outcome.status,
@@ -62,6 +73,7 @@ def answer(
         "remedy": _told(trajectory.outcome),
         "event": _event(request, trajectory),
         "events": _transitions(trajectory.transitions[:MOST_TOLD]),
+        "indeterminate": _indeterminate_spans(acting.indeterminate, trajectory),
         "method": choice.method.id,
         "choice": {"code": choice.reason, "parameters": {}} if choice.reason else None,
         "columns": request.columns,
@@ -171,13 +183,22 @@ def _constrained(request: Request, problem: Problem, trajectory: Trajectory) -> 
     }
 
 
-def _multipliers(problem: Problem, reactions: Reactions, found: Estimate | None, column: Writer) -> Document:
+def _multipliers(
+    problem: Problem, trajectory: Trajectory, reactions: Reactions, indeterminate: IndeterminateForces, column: Writer
+) -> Document:
     """The multipliers as far as they are unique, and what holds what was released."""
-    known = None if found is None else found.multipliers
+    known = trajectory.estimate.multipliers if trajectory.estimate else None
     doubts = np.full_like(reactions.multipliers, UNKNOWN_ERROR) if known is None else known
+    shorter = {name: column.shorten(reactions.multipliers[:, k], doubts[:, k]) for k, name in _unique(problem)}
     return {
-        name: column.write(column.shorten(reactions.multipliers[:, k], doubts[:, k])) for k, name in _unique(problem)
+        name: column.write(_without(values, indeterminate.where(name, trajectory.times)))
+        for name, values in shorter.items()
     }
+
+
+def _without(values: Floats, is_open: NDArray[np.bool_]) -> Floats:
+    """Values without those that are not determined; both have shape (samples,)."""
+    return np.where(is_open, np.nan, values)
 
 
 def _reactions(scene: Scene, problem: Problem) -> Document:
@@ -193,14 +214,35 @@ def _reactions(scene: Scene, problem: Problem) -> Document:
     }
 
 
-def _friction(frictions: Mapping[str, FrictionForce], column: Writer) -> Document:
+def _friction(
+    frictions: Mapping[str, FrictionForce], times: Floats, indeterminate: IndeterminateForces, column: Writer
+) -> Document:
     """R and F₀ of each load with friction."""
 
-    def written(values: Floats) -> Column:
+    def shorter(values: Floats) -> Floats:
         doubt = UNKNOWN_ERROR * max(1.0, np.abs(values).max(initial=0.0))
-        return column.write(column.shorten(values, np.full(len(values), doubt)))
+        return column.shorten(values, np.full(len(values), doubt))
 
-    return {name: {"force": written(each.force), "largest": written(each.largest)} for name, each in frictions.items()}
+    return {
+        name: {
+            "force": column.write(_without(shorter(each.force), indeterminate.where(name, times))),
+            "largest": column.write(shorter(each.largest)),
+        }
+        for name, each in frictions.items()
+    }
+
+
+def _indeterminate_spans(indeterminate: IndeterminateForces, trajectory: Trajectory) -> list[Document]:
+    """When which forces are not determined; the times of events are rounded as there."""
+    end = float(trajectory.times[-1]) if len(trajectory.times) else 0.0
+    found = indeterminate.spans(end)[:MOST_TOLD]
+    errors = {each.time: each.error for each in trajectory.transitions}
+    starts = _times([each.start for each in found], [errors.get(each.start) for each in found])
+    ends = _times([each.end for each in found], [errors.get(each.end) for each in found])
+    return [
+        {"names": list(each.names), "start": start, "end": stop}
+        for each, (start, _), (stop, _) in zip(found, starts, ends, strict=True)
+    ]
 
 
 def _unique(problem: Problem) -> list[tuple[int, str]]:
@@ -222,10 +264,16 @@ def _moved(request: Request, moved: Moved) -> Document | None:
     return changed or None
 
 
-def _error(request: Request, problem: Problem, trajectory: Trajectory, found: Estimate) -> Document:
+def _error(
+    request: Request, problem: Problem, trajectory: Trajectory, found: Estimate, indeterminate: IndeterminateForces
+) -> Document:
     told = {}
     if found.multipliers is not None:
-        each = {name: significant(found.multipliers[:, k], 3).tolist() for k, name in _unique(problem)}
+        rounded = {name: significant(found.multipliers[:, k], 3) for k, name in _unique(problem)}
+        each = {
+            name: as_numbers(_without(errors, indeterminate.where(name, trajectory.times)))
+            for name, errors in rounded.items()
+        }
         told = {"multipliers": each}
     return {
         **told,

@@ -8,6 +8,7 @@ less room and time to compress. Numbers are as short as their errors allow, with
 from __future__ import annotations
 
 import base64
+import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from types import MappingProxyType
@@ -18,7 +19,7 @@ import numpy as np
 from .problem import Floats
 from .rounding import rounded, rounded_to_bits
 
-Column: TypeAlias = list[float] | str
+Column: TypeAlias = list[float] | list[float | None] | str
 
 
 @dataclass(frozen=True)
@@ -35,12 +36,15 @@ class Writer:
 def as_numbers(values: Floats) -> Column:
     """A list of the values of shape (samples,), or a list of rows of those of shape (samples, dimension).
 
-    Of what rests, as most points of a drawing do, one row stands for all: to make many of them takes long.
+    What is not a number in a column is None. Of what rests, as most points of a drawing do, one row stands for all: to
+    make many of them takes long.
     """
     first: list[float] = values[:1].tolist()
     if first and (values == values[0]).all():
         return first * len(values)
     found: list[float] = values.tolist()
+    if values.ndim == 1 and np.isnan(values).any():
+        return [None if math.isnan(each) else each for each in found]
     return found
 
 

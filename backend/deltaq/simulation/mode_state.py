@@ -206,6 +206,17 @@ class ModeState:
         return self.with_rates(self.v + along * (change / (self.facts.a[row] @ along)))
 
 
+def in_mode_of(problem: Problem, modes: Modes, time: float, least: tuple[float, float] = (1.0, 1.0)) -> ModeState:
+    """The state that a stretch of a motion begins with, in seconds, in the mode that its parameters tell."""
+    counts = (len(modes.kinks), modes.bounded, modes.rows, modes.watched)
+    left, parts = problem.parameters[len(problem.parameters) - sum(counts) :], []
+    for count in counts:
+        parts.append(left[:count])
+        left = left[count:]
+    n, state = problem.degrees, problem.state
+    return ModeState(problem, modes, time, state[:n], state[n : 2 * n], Mode(*parts), least)
+
+
 def _solved(mass: Floats, forces: Floats) -> Floats:
     """x of M x = forces, shape (n,); of a single coordinate by a division, as LAPACK has it with more ado."""
     if len(mass) == 1 and mass[0, 0] != 0.0:

@@ -22,7 +22,7 @@ from ..model.model import Observation, compile_model
 from ..model.modes import modes_of_model
 from ..model.reactions import reactions
 from . import ensemble
-from .answer import Document, answer
+from .answer import Acting, Document, answer
 from .auto import choose
 from .choice import Choice, check
 from .consistency import consistent
@@ -30,6 +30,7 @@ from .derivatives import power
 from .driver import is_suitable, simulate
 from .event import event_values
 from .friction import FrictionForce, friction_along
+from .indeterminate import indeterminate_forces
 from .kernels.compiler import MACHINE, MachineCodeNeededError, interpreted, soonest
 from .library import ENSEMBLES, get_method, method_ids
 from .mode_state import TOUCHING
@@ -115,7 +116,8 @@ def _simulated(request: Request, choice: Choice, problem: Problem, compile_time:
     if good < len(trajectory.times):
         trajectory, seen = _cut(trajectory, good), _cut_observation(seen, good)
         frictions = {name: each.first(good) for name, each in frictions.items()}
-    return answer(request, choice, problem, trajectory, seen, watts[: len(trajectory.times)], compile_time, frictions)
+    acting = Acting(watts[: len(trajectory.times)], frictions, indeterminate_forces(modes, trajectory.stretches))
+    return answer(request, choice, problem, trajectory, seen, acting, compile_time)
 
 
 def require_one_mode(scene: Scene) -> None:

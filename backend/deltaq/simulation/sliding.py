@@ -126,18 +126,19 @@ def _pivoted(current: ModeState, rows: Sequence[int]) -> ModeState:
 
 def _dependent(current: ModeState, rows: Sequence[int]) -> int | None:
     """The first row held that constraints, or others before it, hold as well, if there is one."""
-    held = [_unit(each) for each in current.kept[0]]
+    held = [unit_row(each) for each in current.kept[0]]
     known = _rank(held)
     for row in rows:
         if current.mode.flags[row]:
-            held.append(_unit(current.facts.a[row]))
+            held.append(unit_row(current.facts.a[row]))
             if _rank(held) == known:
                 return row
             known += 1
     return None
 
 
-def _unit(row: Floats) -> Floats:
+def unit_row(row: Floats) -> Floats:
+    """A row of length 1, shape (n,); one of zeros as it is."""
     return row / (float(np.linalg.norm(row)) or 1.0)
 
 
@@ -177,7 +178,7 @@ def _goes_on(current: ModeState, row: int) -> bool:
     left, unclear = _left_of_bound(current, row)
     if abs(left) > unclear:
         return left > 0.0
-    left, unclear = _left_of_bound(_later(current), row)
+    left, unclear = _left_of_bound(later(current), row)
     return left >= -unclear
 
 
@@ -187,7 +188,7 @@ def leaves(current: ModeState, row: int) -> bool:
         return True
     if current.mode.flags[row]:
         return False
-    speed, unclear = _left_of_bound(_later(current), row)
+    speed, unclear = _left_of_bound(later(current), row)
     return speed > unclear
 
 
@@ -199,16 +200,16 @@ def _left_of_bound(current: ModeState, row: int) -> tuple[float, float]:
         left = reaction if is_contact else limit - abs(reaction)
         return left if math.isfinite(left) else -math.inf, SLACK * limit
     side = 1.0 if is_contact else current.mode.slips[row]
-    return side * rate_of(current, row), AGAINST * _jump(current, row)
+    return side * rate_of(current, row), AGAINST * jump_of(current, row)
 
 
-def _later(current: ModeState) -> ModeState:
+def later(current: ModeState) -> ModeState:
     """The state a moment later."""
     h, rates = MOMENT * current.problem.t_end, current.accelerations
     return current.at(current.time + h, current.q + h * (current.v + 0.5 * h * rates), current.v + h * rates)
 
 
-def _jump(current: ModeState, row: int) -> float:
+def jump_of(current: ModeState, row: int) -> float:
     """How much of ẇ there is to compare with: what the force between both sides does, or for contacts any force."""
     facts, is_contact = current.facts, row >= current.modes.bounded
     force = current.size_of_forces if is_contact else facts.limits[row]

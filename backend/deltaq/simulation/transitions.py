@@ -21,7 +21,7 @@ import numpy as np
 from ..model.modes import Modes
 from .mode_state import TOUCHING, Facts, Mode, ModeState
 from .problem import Floats, Problem
-from .sliding import SLACK, draws, leaves, on_side, rate_of, settled, side_left_to, unkept
+from .sliding import ALONG, SLACK, draws, leaves, on_side, rate_of, settled, side_left_to, unkept
 
 STILL = 1e-12  # a rate, relative to the largest
 HEIGHT = 1e-15  # by which rounding lifts a rebound, relative to the coordinates
@@ -34,7 +34,6 @@ HARDLY = 1e-13  # of a rate of slipping
 TINY = 1e-9  # of the rates: what rounding left at an event is no more
 NOTHING = 1e-12  # of what an impulse would do without constraints: they take all of it
 NUDGE = 1e-6  # of the coordinates: for slopes by differences, which are right to about as much
-ALONG = 1e-9  # of a row: what is left of it besides the rows of contacts
 ROOMY = 1e3  # of what a scene's places and rates are at first: what they may become
 MOST_IMPACTS = 1000  # one after the other at one time
 MANY_IMPACTS = 30  # behind so many those without rebound are taken at once
@@ -90,14 +89,14 @@ def begun(problem: Problem, modes: Modes, closed: float = TOUCHING) -> ModeState
     n, state, empty = problem.degrees, problem.state, _empty(modes)
     own = with_signs(problem, modes)
     current = ModeState(own, modes, 0.0, state[:n].copy(), state[n : 2 * n].copy(), empty, closed=closed)
-    current = replace(current, least=_least_sizes(current))
+    current = replace(current, least=least_sizes(current))
     kinks, pins = (tuple(-1.0 if s < 0.0 else 1.0 for s in each) for each in (current.facts.kinks, current.facts.pins))
     current = current.within(empty._replace(kinks=kinks, slips=(*empty.slips[: modes.first_pin], *pins)))
     touching = current.touching
     return _resolved(_after_impacts(current, touching[0]) if touching else current, frozenset(touching), None)
 
 
-def _least_sizes(current: ModeState) -> tuple[float, float]:
+def least_sizes(current: ModeState) -> tuple[float, float]:
     """What places and rates count as, at least, at this start: 1, or less if the scene is much smaller or slower.
 
     Where it is, and how fast it may become over its span or by what accelerates it, tell. Angles count by a radian.

@@ -67,7 +67,7 @@ function alone(slopes, given, multiplier) {
 
 /** A rod pulls at those of its ends that can move. @param {Record<string, number[][]>} slopes @param {Snapshot} now @param {[string, string]} ends @param {number} pull @returns {Reaction[]} */
 function pulled(slopes, { positions }, [from, to], pull) {
-  if (!positions[from] || !positions[to]) return [];
+  if (!positions[from] || !positions[to] || !Number.isFinite(pull)) return [];
   const span = positions[to].map((x, c) => x - positions[from][c]);
   const length = Math.hypot(...span);
   return [

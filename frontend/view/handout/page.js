@@ -8,6 +8,7 @@ import { icon } from "../icons.js";
 import { history } from "./history.js";
 import { SECONDS } from "../../model/handout.js";
 import { inLanguage } from "../../model/catalog.js";
+import { indeterminateIn } from "../../model/indeterminate.js";
 import { partsOf } from "../../model/lecture/stops.js";
 import { perSecond, unitText } from "../../model/numbers.js";
 import { caveatsOf } from "../../model/trajectory.js";
@@ -63,6 +64,7 @@ function opening(view) {
       ${values(view)}
     </div>
     ${trajectory ? caveatsOf(trajectory, t).map((sentence) => html`<p class="caveat">${sentence}</p>`) : nothing}
+    ${trajectory ? indeterminateIn(trajectory, scene, t, lang).map((sentence) => html`<p class="caveat">${prose(sentence)}</p>`) : nothing}
     ${trajectory?.t.length ? history({ scene, trajectory, lang, title: t("handout.motion", { seconds: SECONDS }), label: t("handout.curves") }) : nothing}`;
 }
 

@@ -9,7 +9,7 @@ from ...language.expression import Expression
 from ...language.tree import Power, Product, Quotient, TimeDerivative
 from ..bodies import Body
 from ..contributions import DissipationFunction
-from ..lengths import TWO, distance
+from ..lengths import TWO, distance_up_to_sign
 from ..reader import Reader
 from . import Places
 
@@ -33,6 +33,6 @@ class Damper:
         return cls(table.name(), table.place("from"), table.place("to"), table.expression("coefficient"))
 
     def contributions(self, places: Places, _bodies: tuple[Body, ...], /) -> tuple[DissipationFunction, ...]:
-        speed = TimeDerivative(distance(places[self.start], places[self.end]))
+        speed = TimeDerivative(distance_up_to_sign(places[self.start], places[self.end]))  # its square has no sign
         function = Product((Quotient(self.coefficient.tree, TWO), Power(speed, TWO)))
         return (DissipationFunction(self.name, function),)
