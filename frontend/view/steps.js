@@ -77,8 +77,9 @@ export function grounds({ verified, evidence: { kind, points, digits } }, { t })
   return verified ? t(GROUNDS[kind], { points, digits }) : t("step.unverified-why");
 }
 
-/** @param {Step} content @param {Pick<View, "t">} view */
+/** Nothing of a step of words alone that says what is left out. @param {Step} content @param {Pick<View, "t">} view */
 function verdict(content, view) {
+  if (content.evidence.kind === "stated" && !content.latex) return nothing;
   return content.verified
     ? html`<span class="verdict" title=${grounds(content, view)}>${icon("verified")}<span>${view.t("step.verified")}</span></span>`
     : html`<span class="verdict doubtful" title=${grounds(content, view)}><span>${view.t("step.unverified")}</span></span>`;

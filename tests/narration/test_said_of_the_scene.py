@@ -81,3 +81,39 @@ def test_what_is_missing_is_named_in_words(topic: str, lang: str) -> None:
     titles = [step["title"] for step in steps(topic, lang, "left-out")]
     assert all("(" not in title and "-" not in title for title in titles)
     assert len(set(titles)) == len(titles)
+
+
+@pytest.mark.parametrize("lang", ["en", "de"])
+@pytest.mark.parametrize(("scene", "on_positions"), [("four-bar", True), ("rolling-disc-in-space", False)])
+def test_constraints_on_rates_are_differentiated_once(scene: str, lang: str, on_positions: bool) -> None:
+    """What stands beside the accelerations is no part of Φ̈ where Φ holds the rates already."""
+    answer = derive_request({"scene": scene, "lang": lang})
+    said = [step["text"] for chapter in answer["chapters"] for step in chapter["steps"]]
+    assert any("boldsymbol\\gamma" in text for text in said)
+    assert on_positions or not any("ddot\\Phi" in text for text in said)
+
+
+def test_numbers_of_an_equilibrium_have_units() -> None:
+    """Multipliers, too, where the scene tells what they are measured in."""
+    answer = derive_request({"scene": "four-bar", "lang": "en"})
+    (first,) = [step for chapter in answer["chapters"] for step in chapter["steps"] if step["id"] == "equilibrium:1"]
+    numbers = [line for line in first["latex"].split("\\\\[0.4em]") if "approx" in line]
+    assert len(numbers) == 5
+    assert all("\\text{rad}" in line or "\\text{N}" in line for line in numbers)
+
+
+@pytest.mark.parametrize(
+    ("scene", "place", "word"),
+    [
+        pytest.param("slider-crank", "crank", {"en": "fixed", "de": "fest:"}, id="a crank about its centre of mass"),
+        pytest.param("slider-crank", "piston", {"en": "determine", "de": "legen"}, id="a piston"),
+        pytest.param("foucault", "bob", {"en": "determine", "de": "legen"}, id="a bob on the turning earth"),
+    ],
+)
+@pytest.mark.parametrize("lang", ["en", "de"])
+def test_coordinates_determine_the_position_where_it_depends_on_any(
+    scene: str, place: str, word: dict[str, str], lang: str
+) -> None:
+    answer = derive_request({"scene": scene, "lang": lang})
+    (step,) = [s for chapter in answer["chapters"] for s in chapter["steps"] if s["id"] == f"position:{place}"]
+    assert word[lang] in step["text"]

@@ -78,6 +78,11 @@ def filled(template: str, parameters: Mapping[str, object]) -> CatalogText:
     return CatalogText("".join(pieces))
 
 
+def number_told(value: float, language: str) -> str:
+    """A number in a sentence, with the decimal mark of the language: 0,5 in German."""
+    return str(_typed(value)).replace(".", template(language, "rules.decimal"))
+
+
 def _typed(value: object) -> object:
     """A number as one types it: 0 for 0.0, and 1e-6 for 1e-06."""
     return re.sub(r"e([+-])0*", r"e\1", repr(value).removesuffix(".0")) if isinstance(value, float) else value

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import sympy as sp
 
+from ...mechanics.reaction_units import reaction_unit
 from ..calculus import column
 from ..equilibria import Equilibrium
 from ..formula import Explicit, Formula, Inserted, MatrixTimes, Named, Plus, Quantity, Rounded, Term, Times, Value
@@ -68,15 +69,16 @@ def place(system: System, equilibrium: Equilibrium, coordinate: str) -> Relation
     return Relation((name, Rounded(sp.sympify(value), unit)), "≈")
 
 
-def multiplier(symbol: sp.Symbol, equilibrium: Equilibrium) -> Relation:
-    """λ = λ₀ of a constraint that holds an equilibrium."""
-    value = equilibrium.reactions[symbol]
-    return valued(Inserted(Explicit(symbol), {symbol: value}), value, equilibrium)
+def multiplier(system: System, symbol: sp.Symbol, equilibrium: Equilibrium) -> Relation:
+    """λ = λ₀ of a constraint that holds an equilibrium, in closed form, or as a number with its unit."""
+    value, unit = equilibrium.reactions[symbol], reaction_unit(system.scene, symbol.name)
+    name = Inserted(Explicit(symbol), {symbol: value})
+    return valued(name, value, equilibrium, unit if "^" not in unit else "")
 
 
-def valued(name: Formula, value: sp.Expr, equilibrium: Equilibrium) -> Relation:
+def valued(name: Formula, value: sp.Expr, equilibrium: Equilibrium, unit: str = "") -> Relation:
     """What a name stands for in an equilibrium, in closed form or as a number."""
-    return Relation((name, Explicit(value))) if equilibrium.exact else Relation((name, Rounded(value)), "≈")
+    return Relation((name, Explicit(value))) if equilibrium.exact else Relation((name, Rounded(value, unit)), "≈")
 
 
 def reactions(system: System) -> Formula:

@@ -31,7 +31,7 @@ def apply(system: System, found: ContactEquilibrium, number: int) -> Step:
     lines = (
         *(place(system, known, q) for q in system.free if system.q(q) in known.values),
         *(Relation((_at(system, found, named_gap(system, each), there), zero(1))) for each in found.contacts),
-        *(multiplier(symbol, known) for symbol in known.reactions),
+        *(multiplier(system, symbol, known) for symbol in known.reactions),
         *_reactions(system, found),
         Relation((_at(system, found, _balance(system, found), there), zero(len(system.free)))),
     )

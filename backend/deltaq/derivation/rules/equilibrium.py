@@ -33,7 +33,7 @@ def apply(system: System, linear: Linearization, number: int) -> Step:
     if linear.verdict.derivative:
         about["derivative"] = str(linear.verdict.derivative)
         about["degree"] = str(linear.verdict.derivative + 1)
-    held = tuple(multiplier(symbol, known) for symbol in system.multipliers)
+    held = tuple(multiplier(system, symbol, known) for symbol in system.multipliers)
     return Step(RULE, str(number), (*places, *held, *proofs), (), about)
 
 

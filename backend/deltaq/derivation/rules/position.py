@@ -19,4 +19,6 @@ def apply(system: System, place: str) -> Step:
     arguments = tuple(system.q(name) for name in system.coordinates if given.value.has(system.q(name)))
     part = UNGUIDED if given.value.has(*system.guides) else ""
     name = Named(Quantity("position", place, part), given.value, arguments)
-    return Step(RULE, place, (Relation((name, given)),), (system.source(place),), {"place": place})
+    moved_by_time = "given" if given.value.has(system.t) else "fixed"
+    about = {"place": place} if arguments else {"place": place, "outcome": moved_by_time}
+    return Step(RULE, place, (Relation((name, given)),), (system.source(place),), about)
