@@ -13,6 +13,7 @@ from deltaq.mechanics.scene import Scene
 BALL = load_scene("bouncing-ball")
 SLOWER = tuple(replace(each, value=0.5 * each.value) for each in BALL.parameters)
 RENAMED = tuple(replace(each, name="table") for each in BALL.events)
+OF_ANY_SIGN = tuple(replace(each, positive=False) for each in BALL.parameters)
 
 
 @pytest.mark.parametrize(
@@ -21,6 +22,7 @@ RENAMED = tuple(replace(each, name="table") for each in BALL.events)
         pytest.param(replace(BALL, title={"de": "Ball", "en": "ball"}), True, id="title"),
         pytest.param(replace(BALL, parameters=SLOWER), True, id="values"),
         pytest.param(replace(BALL, events=RENAMED), False, id="name of an event"),
+        pytest.param(replace(BALL, parameters=OF_ANY_SIGN), False, id="parameters that may be negative"),
         pytest.param(load_scene("pendulum"), False, id="another scene"),
     ],
 )

@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from tests.simulation.constrained import G, platform
+from tests.simulation.constrained import G, equation, particle, platform, scene
 from tests.simulation.test_constraints import swing
 
 from deltaq.errors import RequestError, SceneError
@@ -60,6 +60,40 @@ def test_no_energy_is_lost_in_many_swings(rods: int) -> None:
     assert np.abs(found.values - places(found.times)).max() < 1e-9
     assert found.reactions is not None
     assert found.reactions.gaps.max() < 1e-14
+
+
+def block_on_plate(aslant: float) -> Scene:
+    """A block sticks to a plate on three rods of 1 m; the third leans by so much, which holds the plate if not zero."""
+    rods = ((-1, "0"), (1, "0"), (0, "c"))
+    plate: Document = {
+        "name": "plate", "kind": "rigid", "mass": "3", "position": ["x", "y"], "inertia": "1", "angle": "p"
+    }  # fmt: skip
+    return scene(
+        {"x": (0.0, 0.0), "y": (-1.0, 0.0), "p": (0.0, 0.0), "u": (0.0, 0.0)},
+        {"c": aslant, "g": G},
+        [particle("block", "u", "0", mass="1"), plate],
+        [
+            equation(f"rod{k}", f"(x + {at}*cos(p) - ({at}) - {off})^2 + (y + {at}*sin(p))^2 = 1 + ({off})^2")
+            for k, (at, off) in enumerate(rods)
+        ],
+        loads=[
+            {"kind": "friction", "name": "between", "coordinate": "u - x", "force": "2"},
+            {"kind": "force", "name": "pull", "at": "block", "force": ["1", "0"]},
+        ],
+    )
+
+
+def test_constraints_that_follow_from_others_do_so_for_some_parameters_only() -> None:
+    """What holds the block is found anew where the third rod, which said nothing new before, holds the plate."""
+    found = [
+        simulate(problem_of(block_on_plate(aslant), 0.5, 5), get_method("dop853"), tolerance=1e-8)
+        for aslant in (0.0, 0.5)
+    ]
+    swings, stands = (each.values for each in found)
+    assert [each.outcome.status for each in found] == ["ok", "ok"]
+    assert swings[-1, 0] > 0.02
+    assert np.abs(swings[:, 3] - swings[:, 0]).max() < 1e-12
+    assert np.abs(stands - stands[0]).max() < 1e-12
 
 
 @pytest.mark.parametrize("rods", [3, 5])

@@ -8,7 +8,10 @@ from functools import cached_property
 
 @dataclass(frozen=True)
 class Mechanics:
-    """All of a scene that its equations depend on: the same of scenes that differ in numbers and titles alone."""
+    """All of a scene that its equations depend on: the same of scenes that differ in numbers and titles alone.
+
+    Numbers count as far as they tell which parameters are positive, and which constraints follow from others.
+    """
 
     content: tuple[object, ...]
 

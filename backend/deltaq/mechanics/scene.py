@@ -180,9 +180,9 @@ class Scene:
     @cached_property
     def mechanics(self) -> Mechanics:
         """What its equations depend on."""
-        names = tuple(c.name for c in self.coordinates), tuple(p.name for p in self.parameters)
+        names = tuple(c.name for c in self.coordinates), tuple((p.name, p.positive) for p in self.parameters)
         events = tuple((event.name, event.value, event.then, event.restitution) for event in self.events)
-        constraints = self.conditions, tuple(symbol.name for symbol in self.multipliers)
+        constraints = self.conditions, tuple(symbol.name for symbol in self.multipliers), self.independence.chosen
         return Mechanics(
             (self.dimension, names, self.points, self.bodies, self.loads, self.guides, events, constraints)
         )
