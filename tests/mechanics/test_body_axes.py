@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
 from itertools import product
 from typing import Any
@@ -14,6 +15,7 @@ from deltaq.mechanics.library import load_scene, scene_ids
 from deltaq.mechanics.soundness import soundness_problems
 
 ANGLES = sp.symbols("psi theta phi")
+NAMES = tuple(map(str, ANGLES))
 RATES = sp.symbols("psi_rate theta_rate phi_rate")
 OFF, NONE = "angular-velocity-beside-body", "angular-velocity-of-none"
 BOX, ROD, BALL = ("1.0", "1.3", "1.7"), ("1.2", "1.2", "0.4"), ("0.4", "0.4", "0.4")
@@ -38,10 +40,10 @@ def components(axes: Sequence[int], frame: str) -> list[str]:
     return written
 
 
-def told(omega: Sequence[str], moments: Sequence[Any]) -> list[tuple[str, str]]:
+def told(omega: Sequence[str], moments: Sequence[Any], names: Sequence[str] = NAMES) -> list[tuple[str, str]]:
     document = {
         "dimension": 3,
-        "coordinates": [{"name": str(q), "value": 0.4} for q in ANGLES],
+        "coordinates": [{"name": name, "value": 0.4} for name in names],
         "bodies": [
             {
                 "name": "body",
@@ -64,6 +66,18 @@ ORDERS = [order for order in product(range(3), repeat=3) if order[0] != order[1]
 @pytest.mark.parametrize("order", ORDERS)
 def test_every_sequence_of_turns_has_an_angular_velocity(order: tuple[int, ...]) -> None:
     assert told(components(order, "body"), BOX) == []
+
+
+@pytest.mark.parametrize("radius", ["1e-6", "1e-5", "1e-3", "1", "1e3", "1e6"])
+@pytest.mark.parametrize(("frame", "expected"), [("body", []), ("space", [(NONE, "/bodies/0/angular_velocity")])])
+def test_an_angle_may_be_an_arc_on_a_small_or_large_circle(
+    radius: str, frame: str, expected: list[tuple[str, str]]
+) -> None:
+    omega = [
+        re.sub(r"\btheta\b", f"(s/{radius})", each.replace("dot(theta)", "dot(s)/" + radius))
+        for each in components((2, 0, 2), frame)
+    ]
+    assert told(omega, BOX, ("psi", "s", "phi")) == expected
 
 
 @pytest.mark.parametrize("moments", [BOX, ROD, BALL])
