@@ -72,7 +72,7 @@ def on_line(loads: Sequence[dict[str, Any]], events: Sequence[dict[str, Any]] = 
 
 
 @pytest.mark.parametrize("name", JUMPING)
-def test_runs_in_one_room_are_as_in_rooms_of_their_own(name: str) -> None:
+def test_runs_that_share_a_workspace_are_as_with_their_own(name: str) -> None:
     """Of a run before nothing is left there: neither its event, nor its parameters, nor its samples."""
     modes = modes_of(scene_here(name))
     assert modes is not None
@@ -90,7 +90,7 @@ def test_runs_in_one_room_are_as_in_rooms_of_their_own(name: str) -> None:
 
 
 @pytest.mark.parametrize("name", JUMPING)
-def test_what_a_room_hands_out_again_is_as_new(name: str) -> None:
+def test_what_a_workspace_hands_out_again_is_as_new(name: str) -> None:
     """Every array of what is watched, and of the right-hand side what a run does not write before it reads."""
     modes = modes_of(scene_here(name))
     assert modes is not None
@@ -366,6 +366,18 @@ def test_two_frictions_stick_and_slip_by_themselves(method: str) -> None:
     t = found.times[found.times < math.pi / 2.0]
     assert found.values[: len(t), 1] == pytest.approx(-0.75 + 1.75 * np.cos(2.0 * t), abs=1e-9)
     assert [(each.name, each.kind) for each in found.transitions] == [("light", "turn")] * 2
+
+
+@pytest.mark.parametrize("method", ["dop853", "taylor", "rk4", "radau-5"])
+@pytest.mark.parametrize("at", [0.0, 1e-200])
+def test_nothing_sticks_at_a_dead_centre(method: str, at: float) -> None:
+    """On c = x² friction has no direction at x = 0, where nothing slips: ẍ = 1 − 2F x from there on, F = 1/2."""
+    pull = {"kind": "force", "name": "pull", "at": "p", "force": ["1", "0"]}
+    friction = {"kind": "friction", "name": "mu", "coordinate": "x^2", "force": "1/2"}
+    moved, still = (motion(on_line(loads, value=at), 2.0, 1e-6, method) for loads in ([pull, friction], [friction]))
+    assert (moved.outcome.status, still.outcome.status) == ("ok", "ok")
+    assert np.abs(moved.values[:, 0] - 1.0 + np.cos(moved.times)).max() < 1e-6
+    assert np.abs(still.values).max() < 1e-15
 
 
 @CLOSED_FORMS

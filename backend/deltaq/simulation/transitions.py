@@ -351,10 +351,16 @@ def _resolved(current: ModeState, closed: frozenset[int], released: int | None, 
 
 
 def _at_rest(current: ModeState, closed: frozenset[int], released: int | None, come: int | None) -> list[bool]:
-    """By row, whether it may be held: what slips does not, and contacts that touch and do not open."""
+    """By row, whether it may be held: what slips does not, and contacts that touch and do not open.
+
+    At a dead centre what slips moves with no coordinate, so that no force along it could hold it.
+    """
     modes, facts, size, touching = current.modes, current.facts, current.size_of_rates, current.touching
     least = [TINY if flag else HARDLY for flag in current.mode.flags]  # what sticks may have been moved by an impact
-    held = [abs(facts.w[row]) <= least[row] * size or row == come for row in range(modes.bounded)]
+    held = [
+        bool(facts.a[row] @ facts.a[row] > 0.0) and (abs(facts.w[row]) <= least[row] * size or row == come)
+        for row in range(modes.bounded)
+    ]
     for row in range(modes.first_pin, modes.bounded):
         slope = float(np.abs(facts.a[row]).max())
         held[row] &= abs(facts.pins[row - modes.first_pin]) <= ROUNDING * slope * current.size_of_places
