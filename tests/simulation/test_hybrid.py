@@ -459,6 +459,20 @@ def test_the_power_of_what_sticks_is_that_of_its_reaction() -> None:
     assert power[~held] == pytest.approx((-np.sign(rate - 0.3) * sliding * rate)[~held], abs=1e-7)
 
 
+@pytest.mark.parametrize(
+    ("value", "rate", "gap"), [(0.0, 1.0, "r"), (0.0, 1.0, "r + 1"), (1.0, -1.0, "r")], ids=["at", "away", "comes"]
+)
+def test_contacts_where_the_masses_have_no_inverse_end_the_motion_as_it_ends_without_them(
+    value: float, rate: float, gap: str
+) -> None:
+    """In polar coordinates no force turns what is at r = 0."""
+    polar = document({"r": (value, rate), "a": (0.3, 0.0)}, {"m": 1.0}, {"p": ("m", ["r*cos(a)", "r*sin(a)"])})
+    bounce = {"name": "hit", "value": gap, "then": "bounce", "restitution": "1/2"}
+    found: Any = run({"scene": polar | {"events": [bounce]}, "t_end": 3.0, "tolerance": 1e-6})
+    assert found["status"] == "singular_mass_matrix"
+    assert found["t_reached"] == pytest.approx(value, abs=1e-6)
+
+
 def test_a_contact_without_a_direction_is_refused() -> None:
     """Of a string that hangs straight down and whose y is held nothing can be moved along ∂g/∂x = −2x = 0."""
     asked = {"scene": write_scene(scene_here("catching-pendulum")), "freeze": ["y"], "t_end": 1}

@@ -8,7 +8,8 @@ from __future__ import annotations
 
 import math
 from collections import deque
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
+from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from functools import partial
 
@@ -20,7 +21,7 @@ from .constraints import Reactions
 from .event import Event
 from .integration import Flag, Workspace
 from .kernels.loop import Result
-from .kernels.motion import FINE, MANY_EVENTS, NOT_FINITE, STEP_LIMIT, UNSETTLED
+from .kernels.motion import FINE, MANY_EVENTS, NOT_FINITE, SINGULAR, STEP_LIMIT, UNSETTLED
 from .method import Method
 from .mode_state import TOUCHING, ModeState
 from .outcome import CHATTERS, NO_DIRECTION, OUT_OF_REACH, SLIDES, WITHIN_STEPS
@@ -38,6 +39,11 @@ NEAR = 1e-6  # of the span, of differences
 SAME = 1e-13  # of the time
 SHAKE = 8.0 * 2.0**-52  # of a rate, and of what it changes by up to the time
 NARROW = 1.0 / 16.0  # of the gaps that count as closed
+OUTCOMES: Mapping[type[Exception], int] = {
+    UnsettledError: UNSETTLED,
+    NoDirectionError: NO_DIRECTION,
+    np.linalg.LinAlgError: SINGULAR,
+}
 
 
 @dataclass
@@ -111,7 +117,9 @@ def run_on(
         start = (begin or partial(begun, problem, modes))(_closed(modes, steps))
         current = with_offsets(_shaken(start, 0, steps.shaken))
     except SlidingError as sliding:
-        return _not_begun(problem, times, steps, modes.name_of(sliding.row))
+        return _not_begun(problem, times, steps, _End(SLIDES, modes.name_of(sliding.row)))
+    except np.linalg.LinAlgError:
+        return _not_begun(problem, times, steps, _End(SINGULAR))
     width, count = current.problem.state.size, len(problem.reactions)
     most_switches = _most_switches(steps, float(times[-1]))
     record = _Record(np.zeros((times.size, width)), np.zeros((times.size, count)), most_switches)
@@ -139,10 +147,10 @@ def run_on(
 
 
 def in_first_mode(problem: Problem, modes: Modes) -> Problem:
-    """The problem as it is up to its first event; as it stands where contacts or switches do not tell how it begins."""
+    """The problem as it is up to its first event; as it stands where nothing tells how it begins."""
     try:
         return _problem(with_offsets(begun(replace(problem, model=modes.model), modes)), 0)
-    except (UnsettledError, NoDirectionError, SlidingError):
+    except (UnsettledError, NoDirectionError, SlidingError, np.linalg.LinAlgError):
         return problem
 
 
@@ -165,12 +173,10 @@ def _behind(current: ModeState, event: Event, record: _Record, span: float) -> M
     """The state behind an event, or why there is none that the run goes on from."""
     try:
         behind = _next(current, event, record)
-    except UnsettledError:
-        return _End(UNSETTLED)
-    except NoDirectionError:
-        return _End(NO_DIRECTION)
     except SlidingError as sliding:
         return _End(SLIDES, current.modes.name_of(sliding.row))
+    except tuple(OUTCOMES) as unknown:
+        return _End(OUTCOMES[type(unknown)])
     if behind is None:
         return _End(NOT_FINITE)
     if record.is_crowded(span):
@@ -260,10 +266,18 @@ def _closed(modes: Modes, steps: Steps) -> float:
 def _shaken(current: ModeState, number: int, pattern: int) -> ModeState:
     """The state with its rates moved by what rounding of them and of the time would do, up and down in no simple order.
 
-    What is held stays as it is, and constraints are kept. Where forces exceed all numbers the run tells so itself.
+    What is held stays as it is, and constraints are kept. Where forces exceed all numbers, or M has no inverse, the run
+    tells so itself.
     """
-    if pattern == 0 or any(current.mode.flags) or not all(map(math.isfinite, current.accelerations.tolist())):
+    if pattern == 0 or any(current.mode.flags):
         return current
+    with suppress(np.linalg.LinAlgError):
+        if all(map(math.isfinite, current.accelerations.tolist())):
+            return _moved_by_rounding(current, number, pattern)
+    return current
+
+
+def _moved_by_rounding(current: ModeState, number: int, pattern: int) -> ModeState:
     size = np.abs(current.v) + current.time * np.abs(current.accelerations)
     change = SHAKE * size * np.cos(2.0 * np.arange(len(size)) + pattern * (number + 2.0))
     kept = current.moved_by(current.mass @ change) if len(current.kept[0]) else change
@@ -291,11 +305,11 @@ def _ended(record: _Record, times: Floats, modes: Modes, event: Event, found: Ru
     return replace(ended, event=replace(event, index=modes.ending[event.index], state=state))
 
 
-def _not_begun(problem: Problem, times: Floats, steps: Steps, name: str) -> Run:
-    """The start alone, where switches do not tell how it goes on."""
+def _not_begun(problem: Problem, times: Floats, steps: Steps, end: _End) -> Run:
+    """The start alone, where switches do not tell how it goes on, or M has no inverse."""
     states = problem.state[None, :]
     held = Reactions(np.zeros((1, len(problem.reactions))), np.zeros(1)) if problem.reactions else None
-    return Run(times[:1], states, Result(SLIDES, 1, 0, 0, 0, 0.0), 1.0, 0.0, steps, reactions=held, at=name)
+    return Run(times[:1], states, Result(end.outcome, 1, 0, 0, 0, 0.0), 1.0, 0.0, steps, reactions=held, at=end.at)
 
 
 def _whole(record: _Record, times: Floats, outcome: int, reached: float, found: Run, at: str = "") -> Run:
