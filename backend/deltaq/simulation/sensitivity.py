@@ -53,6 +53,9 @@ def _inverse(matrix: Floats) -> Floats:
         with suppress(np.linalg.LinAlgError):  # where all have one, as nearly always
             return np.asarray(np.abs(np.linalg.inv(matrix)))
     inverse = np.full(matrix.shape, np.inf)
-    regular = np.isfinite(matrix).all(axis=(1, 2)) & (np.linalg.det(np.nan_to_num(matrix)) != 0.0)
-    inverse[regular] = np.abs(np.linalg.inv(matrix[regular]))
+    for k in np.flatnonzero(
+        np.isfinite(matrix).all(axis=(1, 2))
+    ):  # one by one: determinants may fall below all numbers
+        with suppress(np.linalg.LinAlgError):
+            inverse[k] = np.abs(np.linalg.inv(matrix[k]))
     return inverse
