@@ -113,13 +113,10 @@ def run_on(
     neighbours, and two runs that round alike would know nothing of it. `begin` is `begun` of the problem, where several
     runs have the same.
     """
-    try:
-        start = (begin or partial(begun, problem, modes))(_closed(modes, steps))
-        current = with_offsets(_shaken(start, 0, steps.shaken))
-    except SlidingError as sliding:
-        return _not_begun(problem, times, steps, _End(SLIDES, modes.name_of(sliding.row)))
-    except np.linalg.LinAlgError:
-        return _not_begun(problem, times, steps, _End(SINGULAR))
+    start = _first(modes, steps, begin or partial(begun, problem, modes))
+    if isinstance(start, _End):
+        return _not_begun(problem, times, steps, start)
+    current = with_offsets(_shaken(start, 0, steps.shaken))
     width, count = current.problem.state.size, len(problem.reactions)
     most_switches = _most_switches(steps, float(times[-1]))
     record = _Record(np.zeros((times.size, width)), np.zeros((times.size, count)), most_switches)
@@ -167,6 +164,16 @@ class _End:
 
     outcome: int
     at: str = ""
+
+
+def _first(modes: Modes, steps: Steps, begin: Callable[[float], ModeState]) -> ModeState | _End:
+    """The state that a run begins with, or why there is none."""
+    try:
+        return begin(_closed(modes, steps))
+    except SlidingError as sliding:
+        return _End(SLIDES, modes.name_of(sliding.row))
+    except np.linalg.LinAlgError:
+        return _End(SINGULAR)
 
 
 def _behind(current: ModeState, event: Event, record: _Record, span: float) -> ModeState | _End:
