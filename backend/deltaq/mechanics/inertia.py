@@ -19,10 +19,10 @@ from .bodies import Body
 from .kinetics import Distribution, Rotation, Translation
 from .mass import Matrix, Point, motions_matrix, nodes, squares, squares_of, tensor
 from .material import Material
+from .rows import NOTHING
 from .scene import Scene
 
 POINTS = 5
-NOTHING = 1e-7  # the differences are good to about 1e-10
 
 
 def inertia_problems(scene: Scene) -> Iterator[Problem]:

@@ -12,9 +12,9 @@ from ..language.floats import evaluate
 from ..language.tree import Node, TimeDerivative
 from .kinetics import Distribution, Kinetics, Rotation, Translation
 from .material import Material
+from .rows import STEP
 from .scene import Scene
 
-STEP = 1e-5
 NOTHING = 1e-12  # of the largest entry of a tensor: what elimination leaves of nothing
 GAUSS = ((0.5 - math.sqrt(0.15), 5 / 18), (0.5, 8 / 18), (0.5 + math.sqrt(0.15), 5 / 18))  # on the unit interval
 

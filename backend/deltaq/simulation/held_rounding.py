@@ -39,11 +39,11 @@ def held_rounding(problem: Problem, times: Floats, states: Floats) -> Floats:
 def _moved(mass: Floats, rows: Floats, terms: Floats) -> Floats:
     """|M⁻¹Aᵀ(AM⁻¹Aᵀ)⁺| δg: shape (samples, n)."""
     responses = np.linalg.pinv(mass, hermitian=True) @ rows.transpose(0, 2, 1)
-    share = rows @ responses
-    own = np.sqrt(np.maximum(np.diagonal(share, axis1=1, axis2=2), 0.0))
+    schur = rows @ responses
+    own = np.sqrt(np.maximum(np.diagonal(schur, axis1=1, axis2=2), 0.0))
     scales = np.divide(1.0, own, out=np.zeros_like(own), where=own > 0.0)
     inverse = np.linalg.pinv(
-        share * scales[:, :, None] * scales[:, None, :], rcond=SMALLEST_SCHUR_PIVOT, hermitian=True
+        schur * scales[:, :, None] * scales[:, None, :], rcond=SMALLEST_SCHUR_PIVOT, hermitian=True
     )
     shifts = responses @ (inverse * scales[:, :, None] * scales[:, None, :])
     return np.asarray(np.einsum("snk,sk->sn", np.abs(shifts), terms))
