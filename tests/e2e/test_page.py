@@ -13,6 +13,7 @@ from tests.e2e.waiting import at_rest, frames, until, until_equal
 pytestmark = pytest.mark.e2e
 
 BYTES_BEFORE_FIRST_PLOT = 300_000
+STATED_AND_NOT = {"multiplier:edge": 1, "left-out:integrals": 0}
 SCENES = ("elastic-pendulum", "base-pendulum", "guided-pendulum", "pendulum")
 
 
@@ -178,6 +179,14 @@ def test_a_deep_link_leads_to_the_same_place(lecture: Lecture) -> None:
     expect(lecture.steps).to_have_count(5)
     expect(lecture.page.locator(".step[aria-current]")).to_have_attribute("data-step", step)
     expect(lecture.page.locator(".step[aria-current] .title")).to_be_in_viewport()
+
+
+def test_what_is_only_said_is_not_called_verified(lecture: Lecture) -> None:
+    lecture.open("?scene=chaplygin-sleigh&lang=en&step=left-out:integrals")
+    verdicts = {name: lecture.page.locator(f".step[data-step='{name}'] .verdict") for name in STATED_AND_NOT}
+    for name, verdict in verdicts.items():
+        expect(lecture.page.locator(f".step[data-step='{name}']")).to_be_attached()
+        expect(verdict).to_have_count(STATED_AND_NOT[name])
 
 
 def test_the_language_changes_everything_and_keeps_the_place(lecture: Lecture) -> None:
