@@ -54,20 +54,16 @@ class Compiled:
 
         The same numbers as `table` has, without its detours: behind an event there are many such rows, one by one.
         """
-        values, (call, outputs, inputs, data) = np.empty(self.outputs), self._one_row
-        call(outputs(values), inputs(row), data)
-        return values
+        call, make, inputs, data = self._one_row
+        values = make()
+        call(values, inputs(row), data)
+        return np.frombuffer(values)
 
     @cached_property
     def _one_row(self) -> tuple[Any, Any, Any, int]:
-        """The function for one row, views of its outputs and inputs as C's arrays, and its data."""
+        """The function for one row, C's array of its outputs, a view of its inputs as such a one, and its data."""
         address, data = self.addresses
-        return (
-            _function_at(address),
-            _numbers(self.outputs).from_buffer,
-            _numbers(self.inputs).from_buffer,
-            data,
-        )
+        return _function_at(address), _numbers(self.outputs), _numbers(self.inputs).from_buffer, data
 
 
 @lru_cache(maxsize=256)

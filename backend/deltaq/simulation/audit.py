@@ -207,7 +207,7 @@ class Audit:
         return self._ranges_of()
 
     def _ranges_of(self) -> Ranges:
-        inputs = self.problem.inputs(np.zeros(1), self.problem.state[None, :])[0]
+        inputs = np.array((*self.problem.values, *self.problem.rates, 0.0, *self.problem.parameters))
         operations, outputs = self._tape.codes.size, self._tape.outputs.size
         return Ranges(inputs.copy(), inputs.copy(), *_columns(operations), np.zeros(outputs))
 

@@ -393,6 +393,8 @@ def _held_by_others(modes: Modes, facts: Facts, held: list[bool], sticking: list
     """
     contacts = [row for row in range(modes.bounded, modes.rows) if held[row]]
     pins = [row for row in range(modes.first_pin, modes.bounded) if held[row]]
+    if not (contacts or pins):
+        return [0.0] * len(sticking)
     return [
         _share(facts, k, contacts if k >= modes.first_pin else [*pins, *contacts]) if sticks else 0.0
         for k, sticks in enumerate(sticking)
