@@ -473,6 +473,19 @@ def test_contacts_where_the_masses_have_no_inverse_end_the_motion_as_it_ends_wit
     assert found["t_reached"] == pytest.approx(value, abs=1e-6)
 
 
+@pytest.mark.parametrize("rate", [1e-9, 1.0, 1e9, 1e14])
+def test_impacts_are_counted_whatever_the_time_between_them(rate: float) -> None:
+    """Between two walls one metre apart: seventy impacts, and 0.7 m from the first wall behind 70.2 m."""
+    walls = [
+        {"name": name, "value": gap, "then": "bounce", "restitution": "1"}
+        for name, gap in (("left", "x"), ("right", "1 - x"))
+    ]
+    found = motion(on_line([], walls, value=0.5, rate=rate), 70.2 / rate, 1e-6)
+    assert found.outcome.status == "ok"
+    assert len(found.transitions) == 70
+    assert found.values[-1, 0] == pytest.approx(0.7, abs=1e-9)
+
+
 def test_a_contact_without_a_direction_is_refused() -> None:
     """Of a string that hangs straight down and whose y is held nothing can be moved along ∂g/∂x = −2x = 0."""
     asked = {"scene": write_scene(scene_here("catching-pendulum")), "freeze": ["y"], "t_end": 1}

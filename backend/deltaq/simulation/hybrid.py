@@ -36,7 +36,7 @@ AT_ONCE = 50  # events at the same time, by rounding
 CROWD, CROWDED = 400, 1e-4  # so many switches in such a part of the span: the state slides along a kink
 IN_A_STEP, ALWAYS = 2.0, 1000  # switches in one given step on average, and in any run
 NEAR = 1e-6  # of the span, of differences
-SAME = 1e-13  # of the time
+SAME = 1e-13  # of the time, and at least of the span or of a second, whichever is shorter
 SHAKE = 8.0 * 2.0**-52  # of a rate, and of what it changes by up to the time
 NARROW = 1.0 / 16.0  # of the gaps that count as closed
 OUTCOMES: Mapping[type[Exception], int] = {
@@ -248,7 +248,7 @@ def _next(current: ModeState, event: Event, record: _Record) -> ModeState | None
     loss = before.kinetic - after.kinetic if kind in ("impact", "rest", "slide") else 0.0
     reached = record.moved(event, after.time, n)
     record.work += (float(event.state[-1]) if event.state.size > 2 * n else 0.0) - loss
-    is_same = event.time - record.last <= SAME * max(1.0, event.time)
+    is_same = event.time - record.last <= SAME * max(min(1.0, current.problem.t_end), event.time)
     record.at_once = record.at_once + 1 if is_same else 0
     record.last = event.time
     if kind == "switch":
