@@ -240,6 +240,29 @@ def test_problems(changes: dict, problems: tuple[Problem, ...]) -> None:
     assert found == problems
 
 
+@pytest.mark.parametrize("x", [0.0, 0.3])
+def test_a_rope_that_runs_out_moves_while_it_lasts(x: float) -> None:
+    """0.5 m of rope run up to x, where its end is caught: behind 0.5 m nothing moves along."""
+    caught = {
+        "format": 1,
+        "id": "rope",
+        "title": {"en": "Rope"},
+        "coordinates": [{"name": "x", "value": x}, {"name": "y"}],
+        "parameters": [{"name": "rho", "value": 2.0}],
+        "bodies": [
+            {
+                "name": "rope",
+                "kind": "continuum",
+                "material": [{"name": "s", "from": "0", "to": "0.5"}],
+                "density": "rho",
+                "position": ["min(x, s)", "y"],
+            }
+        ],
+    }
+    _, problems = examine(caught)
+    assert [problem.code for problem in problems if problem.severity == "error"] == []
+
+
 @pytest.mark.parametrize("identifier", scene_ids())
 def test_library_scenes_have_no_problem(identifier: str) -> None:
     from deltaq.mechanics.writing import write_scene

@@ -129,11 +129,14 @@ def _singular(scene: Scene, columns: tuple[int, ...]) -> Iterator[Problem]:
 
 
 def _points(scene: Scene) -> Iterator[Point]:
-    """Random configurations, away from the symmetric ones that initial values tend to be."""
+    """Random configurations, away from the symmetric ones that initial values tend to be, and one beside these.
+
+    A rope that runs over an edge no longer moves when all of it is behind.
+    """
     source = random.Random(1)
     parameters = scene.parameter_values
-    for _ in range(POINTS):
-        coordinates = {c.name: c.value + source.uniform(0.2, 0.9) for c in scene.coordinates}
+    for low, high in (*((0.2, 0.9),) * POINTS, (0.02, 0.08)):
+        coordinates = {c.name: c.value + source.uniform(low, high) for c in scene.coordinates}
         yield parameters | coordinates | {"t": source.uniform(0.1, 1.0)}
 
 
