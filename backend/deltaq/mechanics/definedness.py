@@ -19,7 +19,7 @@ REACH = 0.9  # around the initial values
 
 def definedness_problems(scene: Scene, expressions: Iterable[tuple[str, Expression]]) -> Iterator[Problem]:
     """The expressions that are defined neither at the initial values nor anywhere near them, by their pointers."""
-    points = tuple(_points(scene))
+    points = tuple(points_around(scene))
     for pointer, expression in expressions:
         if expression.has_derivatives:
             continue
@@ -27,8 +27,8 @@ def definedness_problems(scene: Scene, expressions: Iterable[tuple[str, Expressi
             yield Problem("never-defined", pointer, parameters={"expression": expression.text[:60]})
 
 
-def _points(scene: Scene) -> Iterator[Mapping[str, float]]:
-    """The start, and random states around it."""
+def points_around(scene: Scene) -> Iterator[Mapping[str, float]]:
+    """The start, and random states around it: values of all names and rates, those of material coordinates too."""
     source = random.Random(1)
     for number in range(POINTS):
         reach = REACH if number else 0.0

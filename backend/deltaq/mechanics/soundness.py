@@ -11,6 +11,7 @@ from ..language.floats import evaluate
 from ..language.spelling import spell_rate
 from ..language.tree import Rate, walk
 from .body_axes import body_axes_problems
+from .continuity import continuity_problems
 from .contributions import Friction
 from .definedness import definedness_problems
 from .homogeneity import SECOND, dimension_problems
@@ -41,8 +42,11 @@ def soundness_problems(scene: Scene) -> Iterator[Problem]:
     yield from body_axes_problems(scene)
     accelerated = tuple(_accelerations(found))
     undefined = tuple(definedness_problems(scene, ((field.pointer, field.expression) for field in found)))
-    held = () if undefined else (*independence_problems(scene), *gap_problems(scene))
-    yield from accelerated or undefined or held or tuple(inertia_problems(scene)) or integrability_problems(scene)
+    jumping = () if accelerated or undefined else tuple(continuity_problems(scene))
+    held = () if undefined or jumping else (*independence_problems(scene), *gap_problems(scene))
+    yield from (
+        accelerated or undefined or jumping or held or tuple(inertia_problems(scene)) or integrability_problems(scene)
+    )
 
 
 def expressions(scene: Scene) -> Iterator[Field]:

@@ -1,0 +1,140 @@
+"""Potentials, positions and angles that jump with a coordinate are refused where they stand; what only bends is not."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import pytest
+
+from deltaq.errors import Problem
+from deltaq.mechanics.document import examine
+
+
+def scene(**changes: object) -> dict[str, object]:
+    """A particle in the plane, with changes."""
+    base: dict[str, object] = {
+        "coordinates": [{"name": "x", "value": -0.7}, {"name": "y", "value": 0.2}],
+        "parameters": [{"name": "m"}, {"name": "k", "value": 2.0}],
+        "bodies": [{"name": "bob", "kind": "particle", "mass": "m", "position": ["x", "y"]}],
+    }
+    return base | changes
+
+
+def potential(energy: str, kind: str = "potential") -> dict[str, object]:
+    return scene(loads=[{"kind": kind, "energy": energy}])
+
+
+def errors(document: dict[str, object]) -> list[Problem]:
+    return [problem for problem in examine(document)[1] if problem.severity == "error"]
+
+
+# A potential, and the function that makes it jump.
+JUMPING = [
+    ("k*step(x)", "step(x)"),
+    ("k*sign(x)", "sign(x)"),
+    ("k*(x + 1)*step(x)", "step(x)"),
+    ("k*sign(x - 5) + k*x^2", "sign(x - 5)"),
+    ("k*step(x - 300)", "step(x - 300)"),
+    ("k*step(x - 1/1000)", "step(x - 1/1000)"),
+    ("k*sign(x^3)", "sign(x^3)"),
+    ("k*cos(x)*step(x + y)", "step(x + y)"),
+    ("k*y*step(x)", "step(x)"),  # zero in one point of the line x = 0 alone
+    ("k*x*step(x*y)", "step(x*y)"),  # zero on one of two lines
+    ("k*step(x^2 + y^2 - 1)", "step(x^2 + y^2 - 1)"),
+    ("k*step(sin(x))", "step(sin(x))"),  # stairs
+    ("k*step(x - t)", "step(x - t)"),
+    ("k*step(step(x) - 1/2)", "step(step(x) - 1/2)"),
+    ("k*sign(max(x, 0))", "sign(max(x, 0))"),  # which never is negative
+    ("k*x/abs(x)", "abs(x)"),
+    ("k*y*(x - y)/abs(x - y)", "abs(x - y)"),
+    ("10^6*x^2 + k*step(x)", "step(x)"),
+    ("k*x + step(x)/10^6", "step(x)"),
+    ("k*step(x - 50)*step(50.01 - x)", "step(x - 50)"),
+]
+CONTINUOUS = [
+    "k*x^2*step(x)",
+    "k*x*step(x)",
+    "k*x*sign(x)",
+    "k*max(x, 0)^2",
+    "k*max(x, y, 1)",
+    "k*abs(x)",
+    "k*sqrt(abs(x))",
+    "k*abs(x)^(1/10)",
+    "k*(1 - cos(x))*step(x)",
+    "k*(exp(x) - 1)*step(x)",
+    "k*sin(x)*sign(sin(x))",
+    "k*sin(y)*x*sign(x)",
+    "k*(x + 1)*step(x) - k*step(x)",
+    "k*x^2/2*(1 - step(x - 3)) + (3*k*x - 4.5*k)*step(x - 3)",  # a line goes on where a parabola ends
+    "2*step(x) + k*(x - 1)*step(x)",  # with k = 2
+    "(x + 10^6)^2*step(x) - 10^12*step(x)",
+    "k*x*(x - y)*step(x - y)",
+    "k*abs(x)*y*step(x*y)",
+    "k*max(0, min(1, 10^6*x))",  # a steep ramp
+    "k*tanh(10^6*x) + abs(x)",
+    "k*step(x^2 + 1)",
+    "k*x*step(t - 1)",  # a force that is switched on
+    "k/abs(x)",
+    "k*log(abs(x))",
+    "k*sign(x)/sqrt(abs(x))",
+]
+
+
+@pytest.mark.parametrize(("energy", "call"), JUMPING)
+def test_a_potential_that_jumps_is_refused(energy: str, call: str) -> None:
+    told = Problem("potential-jumps", "/loads/0/energy", energy.index(call), len(call), {"call": call})
+    assert errors(potential(energy)) == [told]
+
+
+@pytest.mark.parametrize("energy", CONTINUOUS)
+def test_a_continuous_potential_is_not(energy: str) -> None:
+    assert errors(potential(energy)) == []
+
+
+@pytest.mark.parametrize(
+    ("energy", "jumps"),
+    [
+        ("k*y*dot(x) + k*step(x)", True),
+        ("k*step(x)*dot(y)", True),
+        ("k*x*step(x)*dot(y)", False),
+        ("k*y*dot(x) + k*x^2*step(x)", False),
+    ],
+)
+def test_nor_may_generalized_potentials(energy: str, jumps: bool) -> None:
+    found = [problem.code for problem in errors(potential(energy, "generalized-potential"))]
+    assert found == ["potential-jumps"] * jumps
+
+
+SPRING = {"kind": "spring", "from": "wall", "to": "bob"}
+WALL = [{"name": "wall", "position": ["-3", "0"]}]
+ELSEWHERE: list[Any] = [
+    pytest.param(
+        {"bodies": [{"kind": "particle", "mass": "m", "position": ["x", "k*step(x)"]}]}, ["/bodies/0/position/1"]
+    ),
+    pytest.param({"bodies": [{"kind": "particle", "mass": "m", "position": ["x", "k*x^2*step(x) + y"]}]}, []),
+    pytest.param({"points": [{"name": "p", "position": ["sign(y)", "0"]}]}, ["/points/0/position/0"]),
+    pytest.param({"points": WALL, "loads": [SPRING | {"stiffness": "k*step(x)"}]}, ["/loads/0/stiffness"]),
+    pytest.param(
+        {"points": WALL, "loads": [SPRING | {"stiffness": "k", "rest_length": "sign(x)"}]}, ["/loads/0/rest_length"]
+    ),
+    pytest.param({"points": WALL, "loads": [SPRING | {"stiffness": "k", "rest_length": "abs(x)"}]}, []),
+    pytest.param({"points": WALL, "loads": [SPRING | {"stiffness": "k*step(t - 1)"}]}, []),
+    pytest.param({"loads": [{"kind": "moment", "angle": "k*sign(x)", "moment": "1"}]}, ["/loads/0/angle"]),
+    pytest.param({"loads": [{"kind": "moment", "angle": "x", "moment": "-k*sign(x)"}]}, []),
+    pytest.param({"loads": [{"kind": "force", "at": "bob", "force": ["-k*sign(x)", "step(y)"]}]}, []),
+]
+
+
+@pytest.mark.parametrize(("changes", "pointers"), ELSEWHERE, ids=lambda each: str(each)[:100])
+def test_energies_of_springs_positions_and_angles_do_not_jump_either_while_forces_may(
+    changes: dict[str, object], pointers: list[str]
+) -> None:
+    if "bodies" in changes:
+        changes = changes | {"bodies": [{"name": "bob", **body} for body in changes["bodies"]]}  # type: ignore[attr-defined]
+    assert [problem.pointer for problem in errors(scene(**changes)) if problem.code.endswith("-jumps")] == pointers
+
+
+def test_a_coordinate_that_is_guided_may_pass_a_jump() -> None:
+    """What acts on it is known from its guide; the others feel nothing of the jump."""
+    guided = potential("k*y^2 + k*step(x)") | {"guides": [{"coordinate": "x", "value": "t"}]}
+    assert errors(guided) == []
