@@ -11,7 +11,7 @@ const SAG = 0.1;
 const DEEPEST = 10;
 
 /** The time just before another. @param {number} t */
-const before = (t) => t * (1 - Number.EPSILON);
+export const before = (t) => t * (1 - Number.EPSILON);
 
 /**
  * The curve from the first knot to the last. A knot that stands twice is a jump: the curve comes to its value before

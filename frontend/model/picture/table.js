@@ -1,5 +1,6 @@
 /** The curves of the plots as a table: a line for each moment, as CSV (RFC 4180). */
 
+import { before } from "../curve.js";
 import { readingOf } from "../curves.js";
 
 /** @typedef {import("../curves.js").Row} Row */
@@ -11,7 +12,8 @@ const field = (text) => (/[",\n]/.test(text) ? `"${text.replaceAll('"', '""')}"`
 const written = (value, decimals) => (Number.isFinite(value) ? String(Number(value.toFixed(decimals)) + 0) : "");
 
 /**
- * What is seen: curves that are shown, in the part of the time that is shown, at the moments of the motion's samples; a
+ * What is seen: curves that are shown, in the part of the time that is shown, at the moments of the motion's samples, at a
+ * jump on both of its sides; a
  * curve of another run has its values at the same moments, and none beyond its end. The last digit of a value is the first in doubt.
  * @param {readonly Row[]} rows @param {(curve: import("../curves.js").Curve) => boolean} isShown @returns {string}
  */
@@ -28,6 +30,10 @@ export function tableOf(rows, isShown) {
     t >= curve.times[0] && t <= curve.times[curve.times.length - 1]
       ? written(readingOf(curve, t), curve.decimals(t))
       : "";
-  const lines = times.map((t) => [String(t), ...shown.map((one) => value(one, t))]);
+  // A time that stands twice is that of a jump: before it, and behind it.
+  const lines = times.map((t, i) => [
+    String(t),
+    ...shown.map((one) => value(one, t === times[i + 1] && t > 0 ? before(t) : t)),
+  ]);
   return [["t in s", ...names].map(field), ...lines].map((line) => `${line.join(",")}\r\n`).join("");
 }
