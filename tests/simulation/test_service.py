@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 import pytest
 from tests.simulation.constrained import pendulum
-from tests.simulation.scenes import double_pendulum, oscillator
+from tests.simulation.scenes import document, double_pendulum, oscillator
 
 from deltaq.contract.simulation import COLUMNS
 from deltaq.errors import InputError, Problem, RequestError, SceneError, UnknownNameError
@@ -515,3 +515,19 @@ def test_methods_of_the_families_that_are_named_are_warmed(
     assert set(method_ids()) - set(ran) == {
         name for name in method_ids() if chosen and get_method(name).family not in chosen
     }
+
+
+def test_what_ended_a_motion_at_its_start_is_told_though_its_forces_are_no_numbers() -> None:
+    """At r = 0 polar coordinates have no inverse of M: that is why it ends, and not that friction is not finite."""
+    polar = document(
+        {"r": (0.0, 1.0), "phi": (0.0, 1.0)},
+        {},
+        {"bob": ("1", ["r*cos(phi)", "r*sin(phi)"])},
+        [{"kind": "friction", "name": "R", "coordinate": "phi", "force": "1"}],
+    )
+    found = ask(scene=polar)
+    assert (found["status"], found["reason"]["code"], found["t"]) == (
+        "singular_mass_matrix",
+        "singular_mass_matrix",
+        [],
+    )

@@ -1,17 +1,17 @@
 """Statically indeterminate forces: what holds at rest together, of which the equations of motion give no single value.
 
 Constraints, friction that sticks and contacts that rest exert Aᵀλ, a row of A for each. With Aᵀc = 0 the forces λ + s c
-move the system as λ does, so that none with cᵢ ≠ 0 is determined, within |λ| ≤ F₀ of a friction and λ ≥ 0 of a contact.
-Two blocks that a rod links and that both stick are an example: what they take of a load, and the rod, depends on how
-they came to rest, and on how stiff they are.
-Source: Pfeiffer, Glocker, Multibody Dynamics with Unilateral Contacts, §5.1 (dependent constraints).
+move the system as λ does, so that none with cᵢ ≠ 0 is determined, as long as |λ| ≤ F₀ of frictions and λ ≥ 0 of
+contacts leave it a way to go. Two blocks that a rod links and that both stick are an example: what they take of a load,
+and the rod, depends on how they came to rest, and on how stiff they are.
+Sources: Pfeiffer, Glocker, Multibody Dynamics with Unilateral Contacts, §5.1 (dependent constraints); Schrijver,
+Theory of Linear and Integer Programming, §§7.1, 8.2 (Carathéodory's theorem, implicit equalities).
 """
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass
-from itertools import groupby
+from itertools import combinations, groupby
 
 import numpy as np
 from numpy.typing import NDArray
@@ -19,10 +19,11 @@ from numpy.typing import NDArray
 from ..model.modes import Modes
 from .mode_state import ModeState, in_mode_of
 from .problem import Floats, Problem, Stretch, numbers_of_stretches
-from .sliding import AGAINST, ALONG, jump_of, later, rate_of, unit_row
+from .sliding import ALONG, later, rate_of, unclear_rate, unit_row
 from .transitions import TINY, least_sizes
 
 SHARE = 1e-6  # of a force in a combination without effect
+UNCLEAR = 1e-9  # of the forces: so close to its bound a force is at it
 
 
 @dataclass(frozen=True)
@@ -87,9 +88,10 @@ def _names(current: ModeState) -> tuple[str, ...]:
         return ()
     known = problem.moved.undetermined if problem.moved else ()
     forces = [*map(unit_row, current.kept[0]), *(unit_row(current.facts.along[row]) for row in rows)]
-    loose = _without_effect(forces)
+    ways = [0.0] * len(multipliers) + [_way_left(current, row) for row in rows]
     own = (*multipliers, *(_name(modes, row) for row in rows))
-    found = {name for name, is_open in zip(own, loose, strict=True) if is_open and name and name not in known}
+    is_open = _are_open(np.array(forces), np.array(ways))
+    found = {name for name, each in zip(own, is_open, strict=True) if each and name and name not in known}
     ordered = (*modes.frictions, *multipliers, *(_name(modes, row) for row in range(modes.bounded, modes.rows)))
     return tuple(name for name in ordered if name in found)
 
@@ -116,13 +118,46 @@ def _rests(current: ModeState, row: int) -> bool:
     if not is_there or abs(facts.w[row]) > still:
         return False
     behind = later(current)
-    return all(abs(rate_of(each, row)) <= AGAINST * jump_of(each, row) for each in (current, behind))
+    return all(abs(rate_of(each, row)) <= unclear_rate(each, row) for each in (current, behind))
 
 
-def _without_effect(forces: Sequence[Floats]) -> list[bool]:
-    """Of each force, shape (n,), whether it is part of a combination that adds up to zero."""
-    if not forces:
-        return []
-    vectors, sizes, _ = np.linalg.svd(np.array(forces))
-    rank = int(np.count_nonzero(sizes > ALONG))
-    return (np.abs(vectors[:, rank:]).max(axis=1, initial=0.0) > SHARE).tolist()  # type: ignore[no-any-return]
+def _way_left(current: ModeState, row: int) -> float:
+    """The only way, 1 or −1, in which a force at its bound may be another one; 0 if it may be more and less."""
+    facts, modes, unclear = current.facts, current.modes, UNCLEAR * current.size_of_forces
+    if row >= modes.bounded:
+        return 1.0 if facts.reactions[row] <= unclear else 0.0
+    if row >= len(modes.frictions):
+        return 0.0
+    force = float(modes.facts.at(current.row)[row - len(modes.frictions)])
+    return -float(np.sign(force)) if abs(force) >= facts.limits[row] - unclear else 0.0
+
+
+def _are_open(forces: Floats, ways: Floats) -> NDArray[np.bool_]:
+    """Whether each force is part of a combination that adds up to zero and goes the ways that are left.
+
+    `forces` has shape (forces, n), `ways` and what is returned (forces,). Some bounds may leave no way but to stay.
+    """
+    vectors, sizes, _ = np.linalg.svd(forces)
+    without_effect = vectors[:, np.count_nonzero(sizes > ALONG) :]
+    bound = (without_effect * ways[:, None])[np.abs(without_effect * ways[:, None]).max(axis=1, initial=0.0) > SHARE]
+    stay = [row for row in range(len(bound)) if _is_opposed(bound, row)]
+    if stay:
+        _, sizes, directions = np.linalg.svd(bound[stay])
+        without_effect = without_effect @ directions[np.count_nonzero(sizes > ALONG) :].T
+    return np.asarray(np.abs(without_effect).max(axis=1, initial=0.0) > SHARE)
+
+
+def _is_opposed(rows: Floats, row: int) -> bool:
+    """Whether others rule out that a · s > 0, if rows · s ≥ 0 is to hold for all: −a is then their sum with y ≥ 0.
+
+    By Carathéodory independent rows are enough. `rows` has shape (rows, k).
+    """
+    others = [k for k in range(len(rows)) if k != row]
+    for count in range(1, rows.shape[1] + 1):
+        for chosen in combinations(others, count):
+            part = rows[list(chosen)].T
+            weights = np.linalg.lstsq(part, -rows[row], rcond=None)[0]
+            left = np.abs(part @ weights + rows[row]).max()
+            if (weights >= -SHARE).all() and left <= SHARE * np.abs(rows[row]).max():
+                return True
+    return False

@@ -128,6 +128,15 @@ class ModeState:
         """q̈ in this mode, shape (n,)."""
         return self.moved_by(self._system.forces, self._system.gamma)
 
+    def moved_freely_by(self, forces: Floats) -> Floats:
+        """M⁻¹ forces, without the scene's constraints; both have shape (n,)."""
+        return _solved(self.mass, forces)
+
+    @once
+    def free_accelerations(self) -> Floats:
+        """q̈ in this mode without the scene's constraints, shape (n,)."""
+        return self.moved_freely_by(self._system.forces)
+
     @property
     def touching(self) -> list[int]:
         """The contacts that are closed, but for rounding."""

@@ -226,11 +226,14 @@ def _finite(trajectory: Trajectory, seen: Observation, watts: Floats, frictions:
 
 
 def _cut(trajectory: Trajectory, good: int) -> Trajectory:
-    found = trajectory.estimate
-    told = {**trajectory.outcome.parameters, "t": float(trajectory.times[max(good - 1, 0)])}
+    """The first `good` samples; a run that went no further has ended for a reason of its own."""
+    found, ended = trajectory.estimate, trajectory.outcome
+    last = float(trajectory.times[max(good - 1, 0)])
+    if ended.status == "ok" or last < trajectory.reached:
+        ended = Outcome("diverged", "not_finite", {**ended.parameters, "t": last})
     return replace(
         trajectory,
-        outcome=Outcome("diverged", "not_finite", told),
+        outcome=ended,
         times=trajectory.times[:good],
         values=trajectory.values[:good],
         rates=trajectory.rates[:good],
@@ -239,7 +242,7 @@ def _cut(trajectory: Trajectory, good: int) -> Trajectory:
         if found
         else None,
         reactions=trajectory.reactions and trajectory.reactions.first(good),
-        reached=float(trajectory.times[max(good - 1, 0)]),
+        reached=last,
     )
 
 

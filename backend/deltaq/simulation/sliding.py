@@ -23,6 +23,7 @@ from .problem import Floats
 
 SLACK = 1e-12  # relative, of a friction that holds
 AGAINST = 1e-9  # of the jump of ẇ: so much against its side a row at zero may be driven by rounding
+LEFT_OVER = 1e-14  # of accelerations that constraints take, by rounding
 MOST_TOGETHER = 5  # rows at zero of which all ways to go on are tried
 MOST_PIVOTS = 500
 MOMENT = 1e-7  # of the span
@@ -92,7 +93,8 @@ def settled(current: ModeState, at_zero: Sequence[int], resting: Sequence[int] =
     if current.modes.switches and at_zero:
         return _switched(current, at_zero)
     rows = [*at_zero, *resting]
-    return current if len(rows) < 2 else _pivoted(current, rows)
+    is_alone = len(rows) < 2 and not len(current.kept[0])
+    return current if is_alone or not rows else _pivoted(current, rows)
 
 
 def _switched(current: ModeState, at_zero: Sequence[int]) -> ModeState:
@@ -200,7 +202,7 @@ def _left_of_bound(current: ModeState, row: int) -> tuple[float, float]:
         left = reaction if is_contact else limit - abs(reaction)
         return left if math.isfinite(left) else -math.inf, SLACK * limit
     side = 1.0 if is_contact else current.mode.slips[row]
-    return side * rate_of(current, row), AGAINST * jump_of(current, row)
+    return side * rate_of(current, row), unclear_rate(current, row)
 
 
 def later(current: ModeState) -> ModeState:
@@ -209,12 +211,21 @@ def later(current: ModeState) -> ModeState:
     return current.at(current.time + h, current.q + h * (current.v + 0.5 * h * rates), current.v + h * rates)
 
 
-def jump_of(current: ModeState, row: int) -> float:
-    """How much of ẇ there is to compare with: what the force between both sides does, or for contacts any force."""
+def unclear_rate(current: ModeState, row: int) -> float:
+    """What rounding makes of ẇ: of what the force between both sides does to it, or for contacts any force.
+
+    Constraints may take all of that; what rounding leaves is then a part of what they take.
+    """
     facts, is_contact = current.facts, row >= current.modes.bounded
+    a, along = facts.a[row], facts.along[row]
     force = current.size_of_forces if is_contact else facts.limits[row]
-    jump = abs(force * float(facts.a[row] @ current.moved_by(facts.along[row]))) + abs(facts.bias[row])
-    return jump + float(np.abs(facts.a[row]) @ np.abs(current.accelerations)) if is_contact else jump
+    jump = abs(force * float(a @ current.moved_by(along))) + abs(facts.bias[row])
+    if is_contact:
+        jump += float(np.abs(a) @ np.abs(current.accelerations))
+    if not len(current.kept[0]):
+        return AGAINST * jump
+    taken = force * float(np.abs(a) @ np.abs(current.moved_freely_by(along)))
+    return AGAINST * jump + LEFT_OVER * (taken + float(np.abs(a) @ np.abs(current.free_accelerations)))
 
 
 def _is_unique(current: ModeState, held: Sequence[int]) -> bool:
