@@ -83,6 +83,15 @@ def block_on_plate(aslant: float) -> Scene:
     )
 
 
+@pytest.mark.parametrize(("method", "t_end"), [("dop853", 50.0), ("radau-5", 50.0), ("rk4", 5.0), ("gauss-4", 50.0)])
+def test_what_is_held_at_zero_loses_no_digits(method: str, t_end: float) -> None:
+    """The block sticks to a plate that the rods hold; what rounding moves it by is no motion whose digits are lost."""
+    found = simulate(problem_of(block_on_plate(0.5), t_end, 51), get_method(method), tolerance=1e-8)
+    assert found.estimate is not None
+    assert (found.outcome.status, found.estimate.horizon) == ("ok", None)
+    assert (np.abs(found.values[:, [0, 2, 3]]) <= found.estimate.errors[:, None]).all()
+
+
 def test_constraints_that_follow_from_others_do_so_for_some_parameters_only() -> None:
     """What holds the block is found anew where the third rod, which said nothing new before, holds the plate."""
     found = [

@@ -16,6 +16,7 @@ import numpy as np
 from ..model.model import DISTURBANCE
 from .derivatives import accelerations
 from .event import Approach, EventOccurrence, event_values
+from .held_at_rest import held_at_rest
 from .held_rounding import held_rounding
 from .problem import Floats, Problem, Stretch
 from .reactions import reactions_along
@@ -77,7 +78,10 @@ def estimate(problem: Problem, coarse: Run, fine: Run, factor: float) -> Estimat
     floor, sizes = _rounding_floor(problem, times, fine), np.abs(states[:n])
     ones = np.maximum(1.0, sizes)
     errors = _known(np.maximum(spread[:n], floor * ones))
-    horizon = _horizon(problem, times, errors, sizes, np.maximum(floor, held_rounding(problem, times, states.T)))
+    at_rest = held_at_rest(problem, fine.meshes, states[:n])  # of which what they are moved by is the error
+    errors[at_rest] = np.maximum(errors[at_rest], np.abs(states[:n] - states[:n, :1])[at_rest])
+    moving, held = np.where(at_rest[:, None], 0.0, sizes), held_rounding(problem, times, states.T)
+    horizon = _horizon(problem, times, errors, moving, np.maximum(floor, held))
     if horizon is not None:
         # Beyond the horizon both runs are wrong, and their difference may shrink by chance.
         late = times >= horizon
