@@ -80,15 +80,25 @@ CONTINUOUS = [
 ]
 
 
+# Where it starts: beside the places where these switch, or at them.
+STARTS = [(-0.7, 0.2), (0.0, 0.0), (1.0, 1.0), (5.0, -5.0), (1e-9, 0.0), (300.0, 0.0)]
+
+
+def starting(document: dict[str, object], start: tuple[float, float]) -> dict[str, object]:
+    return document | {"coordinates": [{"name": n, "value": value} for n, value in zip("xy", start, strict=True)]}
+
+
+@pytest.mark.parametrize("start", STARTS)
 @pytest.mark.parametrize(("energy", "call"), JUMPING)
-def test_a_potential_that_jumps_is_refused(energy: str, call: str) -> None:
+def test_a_potential_that_jumps_is_refused(energy: str, call: str, start: tuple[float, float]) -> None:
     told = Problem("potential-jumps", "/loads/0/energy", energy.index(call), len(call), {"call": call})
-    assert errors(potential(energy)) == [told]
+    assert errors(starting(potential(energy), start)) == [told]
 
 
+@pytest.mark.parametrize("start", STARTS)
 @pytest.mark.parametrize("energy", CONTINUOUS)
-def test_a_continuous_potential_is_not(energy: str) -> None:
-    assert errors(potential(energy)) == []
+def test_a_continuous_potential_is_not(energy: str, start: tuple[float, float]) -> None:
+    assert errors(starting(potential(energy), start)) == []
 
 
 @pytest.mark.parametrize(

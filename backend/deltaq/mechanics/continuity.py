@@ -1,8 +1,8 @@
 """Whether what must be continuous in the coordinates is: where a potential or a position jumps, no finite force acts.
 
-A value may have sgn, step, |·|, max or min in it. Along lines through states about the start, places are sought where
-what these hang on changes its sign. The value jumps there if it has limits on both sides that differ: x² step(x) has
-the same, as has x sgn(x), and at a pole there are none.
+A value may have sgn, step, |·|, max or min in it. Along lines through states about the start, and about zero, places
+are sought where what these hang on changes its sign. The value jumps there if it has limits on both sides that differ:
+x² step(x) has the same, as has x sgn(x), and at a pole there are none.
 """
 
 from __future__ import annotations
@@ -37,7 +37,8 @@ CONTINUOUS = ("position", "angle")  # fields of places, bodies and moments
 
 def continuity_problems(scene: Scene) -> Iterator[Problem]:
     """The potentials, positions and angles that jump as coordinates change, by the function that makes them."""
-    points = tuple(points_around(scene))
+    about = tuple(points_around(scene))
+    points = (*about, *({**point} | {c.name: point[c.name] - c.value for c in scene.coordinates} for point in about))
     for key, things in (("points", scene.points), ("bodies", scene.bodies), ("loads", scene.loads)):
         for index, thing in enumerate(things):
             for place, expression in _expressions(thing, CONTINUOUS):
@@ -106,7 +107,7 @@ def _jumps_along(switch: Along, value: Along, start: float) -> bool:
     for (low, below), (high, above) in pairwise(zip(places, signs, strict=True)):
         if below == above or math.isnan(below) or math.isnan(above):
             continue
-        if _differs(value, *_narrowed(switch, low, high), abs(start)):
+        if _differs(value, *_narrowed(switch, low, high)):
             return True
         found += 1
         if found == MOST:
@@ -122,9 +123,9 @@ def _narrowed(switch: Along, low: float, high: float) -> tuple[float, float]:
     return low, high
 
 
-def _differs(value: Along, low: float, high: float, start: float) -> bool:
+def _differs(value: Along, low: float, high: float) -> bool:
     """Whether values on both sides tend to different limits."""
-    size = max(start, abs(low), abs(high))
+    size = max(abs(low), abs(high), NEAREST)
     sides = [(value(low - size * apart), value(high + size * apart)) for apart in APART]
     differences = [above - below for below, above in sides]
     if not math.isfinite(sum(differences)):
