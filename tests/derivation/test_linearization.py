@@ -78,8 +78,26 @@ def test_equal_frequencies_have_as_many_shapes() -> None:
 
 def test_singular_coordinates_are_not_linearized() -> None:
     steps = model_steps(spherical_pendulum())
-    assert steps["equilibrium:1"].about["outcome"] == "singular-stable"
+    assert steps["equilibrium:1"].about["outcome"] == "singular-stable-in-the-others"  # no weight turns it about
     assert "linearization:1" not in steps
+
+
+@pytest.mark.parametrize(
+    ("energy", "stability", "is_linearized"),
+    [
+        pytest.param("k*max(x, 0)^2", "undecided", False, id="flat on one side"),
+        pytest.param("k*x^2*step(x)", "undecided", False, id="flat on one side, by a step"),
+        pytest.param("k*x^2*(1 + step(x))", "stable", False, id="stiffer on one side"),
+        pytest.param("k*x^2*sign(x)", "undecided", False, id="falling on one side"),
+        pytest.param("k*x^2*(1 + abs(x))", "stable", True, id="a bend of the slope alone"),
+        pytest.param("k*x^2 + k*max(x - 1, 0)^2", "stable", True, id="a bend elsewhere"),
+    ],
+)
+def test_a_force_that_bends_has_no_stiffness_there(energy: str, stability: str, is_linearized: bool) -> None:
+    """K would be 2 k on one side and another on the other; a mean of them is none."""
+    found = linearizations(System(particle(["x"], {"k": 1.0}, ["x", "0"], {"kind": "potential", "energy": energy})))
+    (there,) = [each for each in found if all(abs(float(value)) < 1e-9 for value in each.equilibrium.values.values())]
+    assert (there.stability, there.spectrum is not None) == (stability, is_linearized)
 
 
 def test_a_chain_of_twelve_has_its_lowest_frequency() -> None:

@@ -89,6 +89,50 @@ def test_what_is_said_of_equilibria(energy: str, condition: str, equilibria: lis
     assert sorted(step.about["outcome"] for step in steps.values() if step.rule == "equilibrium") == equilibria
 
 
+RUB = {"kind": "friction", "name": "rubbing", "coordinate": "x", "force": "c"}
+MINIMA = [
+    pytest.param("x y", "c*(x^2 + y^2)", [], id="quadratic"),
+    pytest.param("x y", "c*x^2", [], id="of x alone"),
+    pytest.param("x y", "c*x^4", [], id="flat, of x alone"),
+    pytest.param("x y", "c*(x^4 + y^4)", [], id="flat"),
+    pytest.param("x y z", "c*(x^4 + x^2*y^2 + y^4)", [], id="a form of x and y"),
+    pytest.param("x y z", "c*(x^4 + x^2*y^2 + y^4 + z^4)", [], id="a form of all"),
+    pytest.param("x y z", "c*((x - y)^4 + (x + y)^2)", [], id="along a kernel, but of z"),
+    pytest.param("x y", "c*abs(x)", [], id="a kink of x alone"),
+    pytest.param("x y", "c*abs(x) + c*abs(y)", [], id="kinks of both"),
+    pytest.param("x y z", "c*abs(x) + c*y^2", [], id="a kink, but of z"),
+    pytest.param("x y", "c*x^2", [RUB], id="of x alone, with friction"),
+    pytest.param("x y", "c*(x^2 + y^2)", [RUB], id="of both, with friction"),
+    pytest.param("x y", "0*x", [RUB], id="no potential"),
+]
+
+
+@pytest.mark.parametrize("lang", ["en", "de"])
+@pytest.mark.parametrize(("names", "energy", "more"), MINIMA)
+def test_a_minimum_is_strict_in_all_coordinates_or_the_others_are_named(
+    names: str, energy: str, more: list[dict[str, str]], lang: str
+) -> None:
+    """A potential that does not depend on a coordinate has no strict minimum, only one in all else."""
+    moving = names.split()
+    loads = [{"kind": "potential", "energy": energy}, *more]
+    position = moving if len(moving) > 2 else [*moving, "0"][:2]
+    document: dict[str, object] = {
+        "dimension": len(position),
+        "coordinates": [{"name": name} for name in moving],
+        "parameters": [{"name": "m"}, {"name": "c"}],
+        "bodies": [{"name": "bob", "kind": "particle", "mass": "m", "position": position}],
+        "loads": loads,
+    }
+    steps = (step for c in derive_request({"scene": document, "lang": lang})["chapters"] for step in c["steps"])
+    free = [name for name in moving if name not in energy]
+    words = {"en": "strict minimum", "de": "strenges Minimum"}[lang]
+    for step in steps:
+        if words in step["text"] and step["rule"] in ("equilibrium", "kink-equilibrium"):
+            told = {"en": "in all else", "de": "allem anderen"}[lang] in step["text"].lower()
+            assert told == bool(free), step["text"]
+            assert all(f"${name}$" in step["text"] for name in free)
+
+
 @pytest.mark.parametrize(("power", "degree"), [(2, None), (4, "4"), (6, "6")])
 def test_a_degree_is_told_where_the_second_derivatives_do_not_decide(power: int, degree: str | None) -> None:
     steps = model_steps(particle(["x"], {"c": 1.0}, ["x", "0"], {"kind": "potential", "energy": f"c*x^{power}"}))

@@ -54,3 +54,32 @@ def test_a_sign_has_no_slope_but_where_it_jumps(value: sp.Expr) -> None:
     slope = diff(y * sp.sign(value), x)
     assert slope == 2 * y * sp.DiracDelta(value) * diff(value, x)
     assert diff(y * sp.sign(value), k).has(sp.DiracDelta) is value.has(k)
+
+
+@pytest.mark.parametrize(
+    ("factor", "inner", "vanishes"),
+    [
+        (x, x, True),
+        (x**2 * y, x, True),
+        (sp.exp(x) - 1, x, True),
+        (x * sp.sign(x), x, True),
+        (x - y, 2 * y - 2 * x, True),
+        (sp.sin(2 * x), sp.sin(x), True),
+        (x**2 + y**2 - 1, x**2 + y**2 - 1, True),
+        (x * y, x * y, True),
+        (sp.S.One, x, False),
+        (x + 1, x, False),
+        (sp.sign(x), x, False),
+        (1 + sp.sign(x), x, False),
+        (y, x, False),
+        (x, x * y, False),  # y = 0 is left
+        (sp.cos(x), sp.sin(x), False),
+        (sp.sin(x), x**2 + y**2 - 1, False),
+    ],
+)
+def test_an_impulse_stays_unless_what_it_is_multiplied_by_vanishes_with_it(
+    factor: sp.Expr, inner: sp.Expr, vanishes: bool
+) -> None:
+    for step in (sp.Heaviside, sp.sign):
+        slopes = [diff(factor * step(inner), by) for by in (x, y)]
+        assert any(slope.has(sp.DiracDelta) for slope in slopes) is not vanishes

@@ -11,7 +11,7 @@ from typing import TypeVar
 import sympy as sp
 
 from ..language import canonical
-from ..language.derivatives import diff
+from ..language.derivatives import beside_jumps, diff
 from ..language.display import size
 from ..language.form_calculus import PlainForm, plain_form
 from ..language.fourier import TooLargeError
@@ -101,7 +101,7 @@ class Calculus(SceneSymbols):
         return shown
 
     def derivative(self, value: V, by: sp.Symbol) -> V:
-        """∂value/∂by, in its display form."""
+        """∂value/∂by, in its display form; of what jumps, beside that."""
         return by_component(value, lambda component: self._shown_slope(component, by))
 
     @cached_method
@@ -110,7 +110,7 @@ class Calculus(SceneSymbols):
         with suppress(TooLargeError):
             if form is not None:
                 return form.derivative(by).displayed(self.symbols, self.given_sums)
-        return self.display(diff(value, by))
+        return self.display(beside_jumps(diff(value, by)))
 
     def shown_rate(self, value: sp.Expr) -> sp.Expr:
         """d(value)/dt along the motion, in its display form."""

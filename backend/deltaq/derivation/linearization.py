@@ -6,16 +6,17 @@ Source: Goldstein, Poole, Safko, Classical Mechanics, 3rd ed., §6.2; Meirovitch
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from itertools import product
 
 import sympy as sp
 from flint import arb, ctx
 
-from ..language.derivatives import diff
+from ..language.derivatives import JUMPS, beside_jumps, diff
 from ..language.memory import cached_method
 from ..vocabulary import Stability
-from .bound_equilibria import searched
+from .bound_equilibria import numbers_at, searched
 from .calculus import column
 from .equilibria import Equilibrium, start_point
 from .evaluation import components
@@ -27,11 +28,12 @@ from .rest_sets import band_of, range_about
 from .spectrum import Spectrum, spectrum
 from .stability import Verdict, growth, verdict
 from .system import System
-from .tangent import Tangent, bound_verdict, projected
+from .tangent import Tangent, bound_stiffness, bound_verdict, projected
 
 BITS = 512
 UNDEFINED = (sp.nan, sp.zoo, sp.oo, -sp.oo)
 SLOW, FALLEN = arb(2) ** -200, arb(2) ** -20  # of the rates; what falls even like a tenth root of them is far below
+SWITCHED, MOST_JUMPS = arb(2) ** -200, 6  # what is zero, and how many may change their sign at one place
 ORDER: tuple[Stability, ...] = ("stable", "undecided", "unstable")
 
 
@@ -151,6 +153,7 @@ def on_constraints(system: System, equilibrium: Equilibrium) -> Linearization:
     law = projected(system, equilibrium, damping_at_rest(system))
     with ctx.workprec(BITS):
         smooth = all(part.is_finite() for values in law.numbers for part in values)
+        smooth = smooth and len(_sides(bound_stiffness(system), numbers_at(system, equilibrium))) == 1
         found = spectrum(*law.numbers, len(law.tangent.independent)) if smooth else None
         judged = bound_verdict(system, equilibrium, law, growth(found) if found else 0)
     return Linearization(equilibrium, *law.shown, found, judged, smooth, tangent=law.tangent)
@@ -161,21 +164,33 @@ def _about(system: System, equilibrium: Equilibrium) -> Linearization:
     with ctx.workprec(BITS):
         point = numeric_point(system, equilibrium)
         mass, damping, stiffness = numbers = [list(components(matrix, point)) for matrix in raw]
-        smooth = all(part.is_finite() for values in numbers for part in values)
+        sides = _sides(raw[2], point)
+        smooth = all(part.is_finite() for values in numbers for part in values) and len(sides) == 1
         found = spectrum(mass, damping, stiffness, len(system.free)) if smooth else None
         held = range_about(system, equilibrium)
-        judged = Verdict("stable", kind="band") if held else verdict(system, equilibrium, point, numbers, found)
+        told = [verdict(system, equilibrium, point, [mass, damping, side], found) for side in sides]
+        alike = told[0] if all(each == told[0] for each in told) else Verdict("undecided")
+        judged = Verdict("stable", kind="band") if held else alike
         if equilibrium.exact:
             there = (matrix.xreplace(dict(equilibrium.values)) for matrix in raw)
-            matrices = [system.display(_beside_jumps(matrix) if smooth else matrix) for matrix in there]
+            matrices = [system.display(beside_jumps(matrix) if smooth else matrix) for matrix in there]
         else:
             matrices = [_rational(values, len(system.free)) for values in numbers]
     return Linearization(equilibrium, matrices[0], matrices[1], matrices[2], found, judged, smooth, band_of(held))
 
 
-def _beside_jumps(matrix: sp.ImmutableMatrix) -> sp.ImmutableMatrix:
-    """The matrix where no force jumps: there the slope of a jump, δ(v) of a belt with v ≠ 0, is zero."""
-    return matrix.replace(sp.DiracDelta, lambda *_: sp.Integer(0))
+def _sides(matrix: sp.ImmutableMatrix, point: Mapping[str, arb]) -> list[list[arb]]:
+    """The matrix in numbers, once where it is continuous: V″ of x² step(x) is 2 above x = 0 and 0 below."""
+    jumping = [atom for atom in matrix.atoms(*JUMPS) if bool(abs(number(atom.args[0], dict(point))) < SWITCHED)]
+    if not jumping or len(jumping) > MOST_JUMPS:
+        return [list(components(matrix, point))]
+    found: list[list[arb]] = []
+    for signs in product((1, -1), repeat=len(jumping)):
+        side = {atom: atom.func(sign) for atom, sign in zip(jumping, signs, strict=True)}
+        values = list(components(matrix.xreplace(side), point))
+        if not any(all(bool(abs(a - b) < SWITCHED) for a, b in zip(values, known, strict=True)) for known in found):
+            found.append(values)
+    return found
 
 
 def _rational(values: list[arb], size: int) -> sp.ImmutableMatrix:

@@ -9,7 +9,7 @@ from collections.abc import Iterator
 
 import sympy as sp
 
-from ..language.derivatives import diff
+from ..language.derivatives import beside_jumps, diff
 from ..language.memory import cached_method
 from .generator import Symmetry, solved
 from .system import System
@@ -67,7 +67,7 @@ def of_force(system: System, coordinate: str) -> Iterator[Share]:
 def of_conservative_force(system: System, coordinate: str) -> Iterator[Share]:
     """Qᵢᵖ = −∂V/∂qᵢ, and the forces of generalized potentials"""
     for source, energy in _of_static_potentials(system):
-        yield source, -diff(energy, system.q(coordinate))
+        yield source, -beside_jumps(diff(energy, system.q(coordinate)))
     for load in system.generalized_loads:
         yield f"load:{load}", system.load_force(load, coordinate)
 
@@ -129,6 +129,6 @@ def _of_constraints(system: System, coordinate: str) -> Iterator[Share]:
 def _of_loads(system: System, coordinate: str) -> Iterator[Share]:
     for load in system.load_names:
         if system.is_conservative(load):
-            yield f"load:{load}", diff(system.load_potential(load), system.q(coordinate))
+            yield f"load:{load}", beside_jumps(diff(system.load_potential(load), system.q(coordinate)))
         else:
             yield f"load:{load}", -system.load_force(load, coordinate)

@@ -8,7 +8,7 @@ from itertools import combinations
 
 import sympy as sp
 
-from ..language.derivatives import diff
+from ..language.derivatives import beside_jumps, diff
 from ..language.memory import cached_method
 from ..mechanics.scene import Scene
 from ..vocabulary import CurlOutcome, GeneratorFamily, SearchEnd
@@ -270,7 +270,9 @@ def _potential_of(system: System, load: str) -> LoadPotential:
         (a, b): diff(forces[a], system.q(b)) - diff(forces[b], system.q(a)) for a, b in combinations(system.free, 2)
     }
     known = system.has_potential(load)
-    curl = {p: system.zero if known or system.is_zero(d) else system.display(d) for p, d in differences.items()}
+    differences = {p: system.zero if known or system.is_zero(d) else d for p, d in differences.items()}
+    beside = {p: system.display(beside_jumps(d)) for p, d in differences.items()}
+    curl = {p: d for p, d in beside.items() if d != 0 or differences[p] == 0}  # at a jump alone it is no number
     potential = system.load_potential(load) if system.is_conservative(load) else None
     return LoadPotential(load, outcome(system, load), system.has_potential(load), potential, curl)
 

@@ -17,6 +17,7 @@ from functools import cached_property
 
 import sympy as sp
 
+from ..language.derivatives import beside_jumps, diff
 from ..language.memory import cached_method
 from ..vocabulary import Stability
 from .compiled import compiled
@@ -64,12 +65,12 @@ class SteadyMotion:
         """∂²U/∂q² at fixed momenta in this motion, or in the same rates −L_qq + L_qΩ A⁻¹ L_Ωq with A = L_ΩΩ."""
         system, q = self.system, self.system.q(self.coordinate)
         if self.square is not None:
-            return system.display(self.potential.diff(q, 2).xreplace(self.momenta))
+            return system.display(_curvature(self.potential, q).xreplace(self.momenta))
         lagrangian = system.lagrangian.xreplace({system.rate(self.coordinate): system.zero})
         rates = [system.rate(turning) for turning in self.reduction.momenta]
         slopes = [system.slope(lagrangian, q).diff(rate) for rate in rates]
         inertia = [[lagrangian.diff(a, b) for a in rates] for b in rates]
-        return sp.Add(system.display(-lagrangian.diff(q, 2)), *_squares(system, inertia, slopes))
+        return sp.Add(system.display(-_curvature(lagrangian, q)), *_squares(system, inertia, slopes))
 
     @cached_property
     def numbers(self) -> Mapping[sp.Symbol, float]:
@@ -104,6 +105,11 @@ class SteadyMotion:
         rates = {self.coordinate: 0.0, self.turning: self.number}
         start = self.system.scene.free
         return {c.name: (float(c.value), rates.get(c.name, float(c.rate))) for c in start}
+
+
+def _curvature(value: sp.Expr, q: sp.Symbol) -> sp.Expr:
+    """∂²value/∂q², where no slope jumps."""
+    return beside_jumps(diff(diff(value, q), q))
 
 
 @cached_method

@@ -7,7 +7,7 @@ from functools import cached_property
 
 import sympy as sp
 
-from ..language.derivatives import diff
+from ..language.derivatives import beside_jumps, diff
 from ..language.memory import cached_method
 from ..mechanics.contributions import (
     Contribution,
@@ -81,7 +81,7 @@ class Work(Kinematics):
             case Moment():
                 work = self.moment(load) * self.vary(self.angle(load))
             case PotentialEnergy():
-                work = -self.vary(self.energy(load))
+                work = -beside_jumps(self.vary(self.energy(load)))
             case GeneralizedPotential():
                 work = self._of_generalized(self.generalized_potential(load))
             case DissipationFunction():

@@ -13,7 +13,7 @@ from typing import Any, NoReturn, TypeAlias
 import sympy
 
 from ..errors import ExpressionError, Parameter, Problem
-from .derivatives import diff
+from .derivatives import diff, without_idle_impulses
 from .display import size
 from .form_calculus import plain_form
 from .fourier import TooLargeError
@@ -64,7 +64,7 @@ def time_derivative(expr: Value, symbols: Symbols) -> Value:
         for term in sympy.Add.make_args(moving)
         for symbol in sorted(term.free_symbols & rates.keys(), key=str)
     )
-    total = sympy.Add(*changes)
+    total = without_idle_impulses(sympy.Add(*changes))
     if total.has(sympy.DiracDelta, sympy.Derivative, sympy.Subs):
         _refuse("not-differentiable")
     return total

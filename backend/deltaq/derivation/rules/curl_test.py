@@ -9,6 +9,9 @@ from __future__ import annotations
 
 from itertools import combinations
 
+import sympy as sp
+
+from ...language.derivatives import diff
 from ...vocabulary import CurlOutcome
 from ..formula import Explicit, Named, Partial, Quantity
 from ..step import Relation, Step
@@ -43,9 +46,18 @@ def outcome(system: System, load: str) -> CurlOutcome:
 def _compare(system: System, load: str, first: str, second: str) -> tuple[Relation, ...]:
     """∂Qᵢ/∂qₖ = a = ∂Qₖ/∂qᵢ in one line, or both values and that they differ."""
     left, right = _cross_derivative(system, load, first, second), _cross_derivative(system, load, second, first)
-    if system.has_potential(load) or system.is_zero(left[1].value - right[1].value):
+    alike = system.is_zero(left[1].value - right[1].value)
+    if system.has_potential(load) or (alike and not _differ_at_jumps(system, load, first, second)):
         return (Relation((*left, right[0])),)
+    if alike:  # at a jump alone they differ, where they are no numbers
+        return ()
     return Relation(left), Relation(right), Relation((left[0], right[0]), "≠")
+
+
+def _differ_at_jumps(system: System, load: str, first: str, second: str) -> bool:
+    forces = system.load_force(load, first), system.load_force(load, second)
+    impulses = [diff(force, system.q(by)) for force, by in zip(forces, (second, first), strict=True)]
+    return any(each.has(sp.DiracDelta) for each in impulses) and not system.is_zero(impulses[0] - impulses[1])
 
 
 def _cross_derivative(system: System, load: str, of: str, by: str) -> tuple[Partial, Explicit]:

@@ -48,12 +48,13 @@ def _there(system: System, linear: Linearization, law: Formula) -> Formula:
 
 
 def _outcome(linear: Linearization, free: tuple[str, ...]) -> str:
-    """Which sentence is true: where it cannot be linearized that is said as well."""
+    """Which sentence is true: where it cannot be linearized that is said as well, and what nothing holds."""
     if linear.verdict.kind:
         return f"{linear.verdict.kind}-{linear.stability}"
+    rest = "-in-the-others" if linear.stability == "stable" and free else ""
     if linear.spectrum is None:
         reason = "singular" if linear.is_smooth else "jumps"
-        return reason if linear.stability == "undecided" else f"{reason}-{linear.stability}"
+        return reason if linear.stability == "undecided" else f"{reason}-{linear.stability}{rest}"
     if linear.verdict.derivative > 1:
-        return f"{linear.stability}-by-{'form' if linear.verdict.by_form else 'derivative'}"
-    return "stable-in-the-others" if linear.stability == "stable" and free else linear.stability
+        return f"{linear.stability}-by-{'form' if linear.verdict.by_form else 'derivative'}{rest}"
+    return f"{linear.stability}{rest}"

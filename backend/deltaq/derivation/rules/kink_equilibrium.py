@@ -34,8 +34,9 @@ def apply(system: System, found: KinkRest, number: int) -> Step:
         *(Relation((_at(system, named_gap(system, each), there), zero(1))) for each in found.contacts),
         *(_sides(system, found) if found.sides else _shares(system, found, there)),
     )
-    outcome = f"{'one' if found.sides else 'several'}-{found.stability}"
-    about = {"outcome": outcome, "number": str(number)}
+    rest = "-in-the-others" if found.stability == "stable" and known.free else ""
+    outcome = f"{'one' if found.sides else 'several'}-{found.stability}{rest}"
+    about = {"outcome": outcome, "number": str(number), "coordinate": ", ".join(known.free)}
     return Step(RULE, str(number), lines, (), about, premises=tuple(f"{GAP}:{each.name}" for each in found.contacts))
 
 
