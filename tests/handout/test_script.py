@@ -345,7 +345,7 @@ def names_in_use(parameters: dict[str, float], *, force: str = "0", energy: str 
 
 
 # Programs that have everything a program may have, each with what calls its own functions and those of NumPy.
-SPRINGS = names_in_use({"k": 2.0}, energy="max(x, y, 0)^2*step(x)")["loads"]
+SPRINGS = names_in_use({"k": 2.0}, energy="max(x, y, 0)^2*x*step(x)")["loads"]
 BOUNCE = {"name": "hit", "value": "2 + x", "then": "bounce", "restitution": "0.5"}
 RUBBING = {"kind": "friction", "name": "rubbing", "coordinate": "y", "force": "0.1*max(1 + x, 0)"}
 BOUND = {"kind": "equation", "equation": "x = 2*y"}
@@ -381,7 +381,7 @@ def given_names(block: ast.Module | ast.FunctionDef | ast.If) -> Counter[str]:
 @pytest.mark.parametrize("as_what", ["parameters", "coordinates"])
 def test_every_name_means_one_thing(as_what: str, whole: str) -> None:
     """Whatever a program calls a function or quantity of its own, a scene may call a parameter or coordinate so."""
-    scene = names_in_use({"k": 2.0}, energy="max(x, y, 0)^2*step(x)") | WHOLE[whole]
+    scene = names_in_use({"k": 2.0}, energy="max(x, y, 0)^2*x*step(x)") | WHOLE[whole]
     plain = ast.parse(str(export_request({"form": "python", "scene": scene})["text"]))
     parts = [part for part in ast.walk(plain) if isinstance(part, ast.Name | ast.FunctionDef)]
     names = {part.id if isinstance(part, ast.Name) else part.name for part in parts} - {"x", "y", "k", "t", *SPELLINGS}
