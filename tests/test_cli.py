@@ -298,7 +298,7 @@ def test_an_event_is_said_in_words() -> None:
     ended = command("simulate", "string-pendulum", "--t-end", "2", "--samples", "3", "--lang", "de")
     assert ended.returncode == 2
     assert ended.stdout.splitlines()[-1].startswith("0.70772")
-    assert "t = 0.707723 s" in ended.stderr
+    assert "t = 0,707723 s" in ended.stderr
     assert "Der Faden wird schlaff" in ended.stderr
 
 
