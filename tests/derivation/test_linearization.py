@@ -78,8 +78,13 @@ def test_equal_frequencies_have_as_many_shapes() -> None:
 
 def test_singular_coordinates_are_not_linearized() -> None:
     steps = model_steps(spherical_pendulum())
-    assert steps["equilibrium:1"].about["outcome"] == "singular-stable-in-the-others"  # no weight turns it about
+    assert steps["equilibrium:1"].about["outcome"] == "singular-stable"  # where it hangs, the azimuth is none
     assert "linearization:1" not in steps
+
+
+def test_a_top_that_hangs_may_stand_at_any_angle_about_its_axis() -> None:
+    about = model_steps(load_scene("heavy-top"))["equilibrium:1"].about
+    assert (about["outcome"], about["coordinate"]) == ("singular-stable-in-the-others", "psi, phi")
 
 
 @pytest.mark.parametrize(

@@ -27,7 +27,7 @@ def apply(system: System, linear: Linearization, number: int) -> Step:
     proofs = (Relation((_there(system, linear, law), zero(rows))) for law, rows in _rows(system, laws))
     known = linear.equilibrium
     places = tuple(place(system, known, q) for q in system.free if system.q(q) in known.values)
-    free = linear.equilibrium.free
+    free = tuple(q for q in linear.equilibrium.free if _moves(system, linear, q))
     about = {"outcome": _outcome(linear, free), "number": str(number), "coordinate": ", ".join(free)}
     about |= potential_that_decides(system)
     if linear.verdict.derivative:
@@ -35,6 +35,13 @@ def apply(system: System, linear: Linearization, number: int) -> Step:
         about["degree"] = str(linear.verdict.derivative + 1)
     held = tuple(multiplier(system, symbol, known) for symbol in system.multipliers)
     return Step(RULE, str(number), (*places, *held, *proofs), (), about)
+
+
+def _moves(system: System, linear: Linearization, coordinate: str) -> bool:
+    """Whether a coordinate that may be chosen freely moves anything: at ϑ = 0 the azimuth of a pendulum does not."""
+    if linear.tangent is not None:  # its masses are those of other coordinates
+        return True
+    return not linear.mass[:, system.free.index(coordinate)].is_zero_matrix
 
 
 def _rows(system: System, laws: tuple[Formula, ...]) -> Iterator[tuple[Formula, int]]:
