@@ -2,11 +2,16 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+from itertools import combinations
 from typing import Any
 
 import pytest
 
 from deltaq.errors import Problem
+from deltaq.language.floats import evaluate
+from deltaq.language.tree import Node
+from deltaq.mechanics import continuity
 from deltaq.mechanics.document import examine
 
 
@@ -148,3 +153,23 @@ def test_a_coordinate_that_is_guided_may_pass_a_jump() -> None:
     """What acts on it is known from its guide; the others feel nothing of the jump."""
     guided = potential("k*y^2 + k*step(x)") | {"guides": [{"coordinate": "x", "value": "t"}]}
     assert errors(guided) == []
+
+
+def test_the_work_is_bounded_and_every_bend_is_looked_at_in_turn(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Walls between ten bodies make a potential of 45 bends; one that jumps among 12 of them is still found."""
+    calls = 0
+
+    def counted(tree: Node, point: Mapping[str, float]) -> float:
+        nonlocal calls
+        calls += 1
+        return evaluate(tree, point)
+
+    monkeypatch.setattr(continuity, "evaluate", counted)
+    names = [f"x{i}" for i in range(10)]
+    walls = [f"max({a} - {b}, 0)^2" for a, b in combinations(names, 2)]
+    bodies = [{"name": f"b{n}", "kind": "particle", "mass": "m", "position": [n, "0"]} for n in names]
+    chain = potential(" + ".join(walls)) | {"coordinates": [{"name": n} for n in names], "bodies": bodies}
+    assert errors(chain) == []
+    assert 0 < calls < 60_000
+    chain["loads"] = [{"kind": "potential", "energy": " + ".join([*walls[:12], "step(x3)"])}]
+    assert [problem.code for problem in errors(chain)] == ["potential-jumps"]

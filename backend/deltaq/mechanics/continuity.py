@@ -11,7 +11,7 @@ import math
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import fields
 from functools import partial
-from itertools import combinations, pairwise
+from itertools import combinations, islice, pairwise
 
 from ..errors import Problem
 from ..language.expression import Expression
@@ -24,8 +24,10 @@ from .scene import Scene
 
 STEPS = 64  # of a line to either side, each longer than the last
 NEAREST, GROWTH = 1e-3, 0.25  # the first a quarter of it long, and how much longer each is, as a logarithm
+MOST_WORK = 400_000  # terms that are evaluated for one expression, about half a second
 MOST = 6  # changes of a sign that are looked at on one line
 APART = (1e-7, 1e-8, 1e-9, 1e-10)  # from the place, relative to the coordinate
+CLOSE = 1e-17
 ALIKE = 0.05  # differences across the place that do not fade
 NEGLIGIBLE = 1e-11  # difference, relative to the values
 ROUNDED = 1e-6  # difference by the place being a rounded number, relative to how values change beside it
@@ -67,25 +69,26 @@ def _expressions(thing: object, keys: tuple[str, ...] = ()) -> Iterator[tuple[st
 def _problem(
     scene: Scene, code: str, pointer: str, expression: Expression, whole: Node, points: tuple[Point, ...]
 ) -> Iterator[Problem]:
-    """At the first function in an expression with which the whole jumps."""
-    free = {coordinate.name for coordinate in scene.free}
-    for node in walk(expression.tree):
-        if isinstance(node, Call) and node.function in KINKED and _jumps_with(node, whole, free, points):
+    """At a function in an expression with which the whole jumps, as far as so much work tells."""
+    lines = tuple(_lines(expression.tree, {coordinate.name for coordinate in scene.free}))
+    size = sum(1 for _ in walk(whole))
+    work = (2 * STEPS * sum(1 for _ in walk(switch)) + 2 * MOST * size for _, switch, _ in lines)
+    looks = int(MOST_WORK // max(work, default=1))
+    every = ((*line, point) for point in points for line in lines)
+    for node, switch, name, point in islice(every, looks):
+        if _jumps_along(partial(_at, switch, point, name), partial(_at, whole, point, name), point[name]):
             span = node.span
             call = expression.text[span.offset : span.offset + span.length]
             yield Problem(code, pointer, span.offset, span.length, {"call": call[:60]})
             return
 
 
-def _jumps_with(node: Call, whole: Node, free: set[str], points: tuple[Point, ...]) -> bool:
-    """Whether a value jumps along a coordinate where a function in it switches; in time alone it may."""
-    names = sorted({part.name for part in walk(node) if isinstance(part, Name)} & free)
-    return any(
-        _jumps_along(partial(_at, switch, point, name), partial(_at, whole, point, name), point[name])
-        for switch in _switches(node)
-        for name in names
-        for point in points
-    )
+def _lines(tree: Node, free: set[str]) -> Iterator[tuple[Call, Node, str]]:
+    """Each function that may jump, what it switches by, and a coordinate to change; in time alone it may jump."""
+    for node in walk(tree):
+        if isinstance(node, Call) and node.function in KINKED:
+            names = sorted({part.name for part in walk(node) if isinstance(part, Name)} & free)
+            yield from ((node, switch, name) for switch in _switches(node) for name in names)
 
 
 def _switches(node: Call) -> tuple[Node, ...]:
@@ -116,9 +119,9 @@ def _jumps_along(switch: Along, value: Along, start: float) -> bool:
 
 
 def _narrowed(switch: Along, low: float, high: float) -> tuple[float, float]:
-    """Neighbouring numbers between which the sign changes."""
+    """Numbers between which the sign changes: neighbours, or about zero so close that it makes no difference."""
     below = _sign(switch(low))
-    while low < (middle := low + (high - low) / 2) < high:
+    while low < (middle := low + (high - low) / 2) < high and high - low > CLOSE:
         low, high = (middle, high) if _sign(switch(middle)) == below else (low, middle)
     return low, high
 
