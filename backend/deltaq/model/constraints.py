@@ -16,7 +16,8 @@ import symengine as se
 from ..mechanics.conditions import Condition
 from ..mechanics.scene import Scene
 from .functions import Expr
-from .kinetic import ZERO, Vector
+from .kinetic import ZERO, Vector, dot
+from .slopes import gradient
 from .symbols import Symbols
 from .symengine_algebra import to_symengine
 
@@ -67,7 +68,7 @@ def constraint_equations(scene: Scene, symbols: Symbols, guided: Callable[[Vecto
         tuple(scene.multipliers[place].name for place in places),
         values[: len(holonomic)],
         slips,
-        tuple(tuple(slip.diff(rate) for rate in rates) for slip in slips),
+        tuple(gradient(slip, rates) for slip in slips),
         tuple(-_along(slip, symbols) for slip in slips),
         tuple(slip.subs(at_rest) for slip in slips),
     )
@@ -93,5 +94,5 @@ def _slip(condition: Condition, value: Expr, symbols: Symbols) -> Expr:
 
 def _along(value: Expr, symbols: Symbols) -> Expr:
     """The time derivative along a motion, as far as it needs no accelerations."""
-    parts = (value.diff(symbols.values[name]) * symbols.rates[name] for name in symbols.free)
-    return sum(parts, value.diff(symbols.time))
+    *slopes, by_time = gradient(value, [*(symbols.values[name] for name in symbols.free), symbols.time])
+    return by_time + dot(slopes, [symbols.rates[name] for name in symbols.free])

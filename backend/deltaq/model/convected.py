@@ -15,12 +15,13 @@ import symengine as se
 
 from .functions import Expr
 from .kinetic import ZERO, Vector
+from .slopes import gradient
 
 
 def convected(mass: Sequence[Vector], values: Vector, rates: Vector) -> Vector:
     """bᵢ for each coordinate, of the mass matrix of all that moves."""
     places = range(len(values))
-    of_mass = [[[mass[i][j].diff(q) for q in values] for j in range(i + 1)] for i in places]
+    of_mass = [[gradient(mass[i][j], values) for j in range(i + 1)] for i in places]
 
     def slope(i: int, j: int, k: int) -> Expr:
         return of_mass[max(i, j)][min(i, j)][k]

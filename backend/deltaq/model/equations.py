@@ -21,8 +21,9 @@ from ..mechanics.scene import Scene
 from .constraints import NONE, ConstraintEquations, constraint_equations
 from .convected import convected
 from .functions import Expr
-from .kinetic import ZERO, Vector, components, kinetic_energy
+from .kinetic import ZERO, Vector, components, dot, kinetic_energy
 from .loads import Work, works
+from .slopes import gradient, slope
 from .symbols import CLOCK, Symbols
 from .symengine_algebra import to_symengine
 from .trigonometry import shortened
@@ -70,7 +71,7 @@ def equations(scene: Scene) -> Equations:
     return Equations(
         symbols,
         tuple(guides.into(row.mass[:count]) for row in rows[:count]),
-        guides.into(tuple(row.forcing - _dot(row.mass[count:], given) for row in rows[:count])),
+        guides.into(tuple(row.forcing - dot(row.mass[count:], given) for row in rows[:count])),
         guides.into((kinetic,))[0],
         guides.into((sum((load.potential for load in loads), ZERO),))[0],
         guides.into((power,))[0],
@@ -104,7 +105,7 @@ class _Row:
 
 def _rows(kinetic: Expr, loads: tuple[Work, ...], symbols: Symbols) -> tuple[_Row, ...]:
     rates = tuple(symbols.rates[name] for name in symbols.moving)
-    mass = tuple(tuple(momentum.diff(rate) for rate in rates) for momentum in map(kinetic.diff, rates))
+    mass = tuple(gradient(momentum, rates) for momentum in gradient(kinetic, rates))
     rest = convected(mass, tuple(symbols.values[name] for name in symbols.moving), rates)
     forces = (sum((load.forces[i] for load in loads), ZERO) for i in range(len(rates)))
     return tuple(map(_Row, rates, mass, (force - b for force, b in zip(forces, rest, strict=True))))
@@ -114,7 +115,7 @@ def _power(rows: tuple[_Row, ...], loads: tuple[Work, ...], guides: _Guides, cou
     """The power of non-conservative forces and of the constraint forces λ = M q̈ − forcing of guides and clock."""
     held = rows[count:]
     by_loads = sum((load.power for load in loads), ZERO)
-    by_guides = sum((row.rate * (_dot(row.mass[count:], guides.accelerations) - row.forcing) for row in held), ZERO)
+    by_guides = sum((row.rate * (dot(row.mass[count:], guides.accelerations) - row.forcing) for row in held), ZERO)
     with_accelerations = tuple(sum((row.rate * row.mass[j] for row in held), ZERO) for j in range(count))
     return by_loads + by_guides, with_accelerations
 
@@ -129,10 +130,6 @@ def _arrows(scene: Scene, loads: tuple[Work, ...]) -> dict[str, Vector]:
     return {(s if sources.count(s) == 1 else f"{s}:{place}"): force for s, place, force in arrows}
 
 
-def _dot(a: Vector, b: Vector) -> Expr:
-    return sum((x * y for x, y in zip(a, b, strict=True)), ZERO)
-
-
 @dataclass(frozen=True)
 class _Guides:
     """The motion that guides and the clock prescribe, to be substituted."""
@@ -145,16 +142,16 @@ class _Guides:
     def of(cls, scene: Scene, symbols: Symbols) -> _Guides:
         values = {guide.coordinate: to_symengine(guide.value.tree, symbols) for guide in scene.guides}
         of_values = {symbols.values[name]: value for name, value in values.items()}
-        of_rates = {symbols.rates[name]: value.diff(symbols.time) for name, value in values.items()}
+        of_rates = {symbols.rates[name]: slope(value, symbols.time) for name, value in values.items()}
         return cls(of_values | of_rates | {symbols.rates[CLOCK]: se.Integer(1)}, values, symbols.time)
 
     @property
     def accelerations(self) -> Vector:
         """The second derivatives of what is prescribed, the clock (which ticks evenly) last."""
-        return (*(value.diff(self.time).diff(self.time) for value in self.values.values()), ZERO)
+        return (*(slope(slope(value, self.time), self.time) for value in self.values.values()), ZERO)
 
     def motion(self, name: str) -> tuple[Expr, Expr]:
-        return self.values[name], self.values[name].diff(self.time)
+        return self.values[name], slope(self.values[name], self.time)
 
     def into(self, expressions: Vector) -> Vector:
         """The expressions with the prescribed motion in place of guided coordinates and rates (chain rule included)."""

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from functools import singledispatch
 
 import symengine as se
@@ -10,6 +11,7 @@ from ..language.tree import Node
 from ..mechanics.kinetics import Distribution, Rotation, Translation
 from .functions import Expr
 from .quadrature import integral
+from .slopes import gradient
 from .symbols import CLOCK, Symbols
 from .symengine_algebra import to_symengine
 
@@ -24,7 +26,13 @@ def components(nodes: tuple[Node, ...], symbols: Symbols) -> Vector:
 
 def velocity(r: Vector, symbols: Symbols) -> Vector:
     """v = Σ ∂r/∂qⱼ q̇ⱼ over all that moves; for the clock this is ∂r/∂t times its rate."""
-    return tuple(sum((x.diff(symbols.values[name]) * symbols.rates[name] for name in symbols.moving), ZERO) for x in r)
+    values, rates = ([each[name] for name in symbols.moving] for each in (symbols.values, symbols.rates))
+    return tuple(dot(gradient(x, values), rates) for x in r)
+
+
+def dot(a: Sequence[Expr], b: Sequence[Expr]) -> Expr:
+    """a·b"""
+    return sum((x * y for x, y in zip(a, b, strict=True)), ZERO)
 
 
 @singledispatch

@@ -16,8 +16,9 @@ from ..mechanics.contributions import (
 )
 from ..mechanics.scene import Scene
 from .functions import Expr, sign
-from .kinetic import ZERO, Vector, components, velocity
+from .kinetic import ZERO, Vector, components, dot, velocity
 from .quadrature import integral
+from .slopes import gradient
 from .symbols import Symbols
 from .symengine_algebra import to_symengine
 
@@ -58,14 +59,12 @@ def _of_generalized_potential(contribution: GeneralizedPotential, _scene: Scene,
     What hangs on the rates has no power if the clock is counted among what moves.
     """
     function = to_symengine(contribution.energy, symbols)
-    values = tuple(symbols.values[name] for name in symbols.moving)
+    values = _values(symbols)
     rates = tuple(symbols.rates[name] for name in symbols.moving)
-    slopes = tuple(function.diff(rate) for rate in rates)
+    slopes = gradient(function, rates)
+    changes = [gradient(each, values) for each in slopes]
     forces = tuple(
-        sum(
-            ((a.diff(other) - b.diff(value)) * rate for b, other, rate in zip(slopes, values, rates, strict=True)), ZERO
-        )
-        for a, value in zip(slopes, values, strict=True)
+        sum(((changes[i][j] - changes[j][i]) * rate for j, rate in enumerate(rates)), ZERO) for i in range(len(values))
     )
     still = _conservative(function.subs(dict.fromkeys(rates, 0)), symbols)
     return Work(still.potential, tuple(a + b for a, b in zip(forces, still.forces, strict=True)), ZERO)
@@ -78,8 +77,8 @@ def _of_force(contribution: PointForce, scene: Scene, symbols: Symbols) -> Work:
     r = components(tuple(x.tree for x in scene.place(contribution.place)), symbols)
     arrow = (contribution.place, force)
     if _is_uniform(force, symbols):
-        return _conservative(-_dot(force, r), symbols, arrow)
-    return Work(ZERO, _along(force, r, symbols), _dot(force, velocity(r, symbols)), arrow)
+        return _conservative(-dot(force, r), symbols, arrow)
+    return Work(ZERO, _along(force, r, symbols), dot(force, velocity(r, symbols)), arrow)
 
 
 @_work.register
@@ -88,15 +87,16 @@ def _of_moment(contribution: Moment, _scene: Scene, symbols: Symbols) -> Work:
     moment, angle = (to_symengine(contribution.moment, symbols),), (to_symengine(contribution.angle, symbols),)
     if _is_uniform(moment, symbols):
         return _conservative(-moment[0] * angle[0], symbols)
-    return Work(ZERO, _along(moment, angle, symbols), _dot(moment, velocity(angle, symbols)))
+    return Work(ZERO, _along(moment, angle, symbols), dot(moment, velocity(angle, symbols)))
 
 
 @_work.register
 def _of_dissipation(contribution: DissipationFunction, _scene: Scene, symbols: Symbols) -> Work:
     """δW = −∂R/∂q̇ᵢ δqᵢ"""
     function = to_symengine(contribution.function, symbols)
-    forces = tuple(-function.diff(symbols.rates[name]) for name in symbols.moving)
-    return Work(ZERO, forces, _dot(forces, tuple(symbols.rates[name] for name in symbols.moving)))
+    rates = tuple(symbols.rates[name] for name in symbols.moving)
+    forces = tuple(-each for each in gradient(function, rates))
+    return Work(ZERO, forces, dot(forces, rates))
 
 
 @_work.register
@@ -105,7 +105,7 @@ def _of_friction(contribution: Friction, _scene: Scene, symbols: Symbols) -> Wor
     c = (to_symengine(contribution.coordinate, symbols),)
     slip = velocity(c, symbols)[0] - to_symengine(contribution.surface_rate, symbols)
     force = (-to_symengine(contribution.force, symbols) * sign(slip),)
-    return Work(ZERO, _along(force, c, symbols), _dot(force, velocity(c, symbols)))
+    return Work(ZERO, _along(force, c, symbols), dot(force, velocity(c, symbols)))
 
 
 @_work.register
@@ -118,23 +118,24 @@ def _of_distributed_force(contribution: DistributedForce, _scene: Scene, symbols
         return integral(part, contribution.material, inside)
 
     if _is_uniform(density, inside):
-        return _conservative(total(-_dot(density, r)), symbols)
+        return _conservative(total(-dot(density, r)), symbols)
     forces = tuple(total(part) for part in _along(density, r, inside))
-    return Work(ZERO, forces, total(_dot(density, velocity(r, inside))))
+    return Work(ZERO, forces, total(dot(density, velocity(r, inside))))
 
 
 def _conservative(potential: Expr, symbols: Symbols, arrow: tuple[str, Vector] | None = None) -> Work:
-    gradient = tuple(-potential.diff(symbols.values[name]) for name in symbols.moving)
-    return Work(potential, gradient, ZERO, arrow)
+    forces = tuple(-each for each in gradient(potential, _values(symbols)))
+    return Work(potential, forces, ZERO, arrow)
 
 
 def _along(force: Vector, r: Vector, symbols: Symbols) -> Vector:
     """Q = F·∂r/∂q for all that moves."""
-    return tuple(_dot(force, tuple(x.diff(symbols.values[name]) for x in r)) for name in symbols.moving)
+    slopes = [gradient(x, _values(symbols)) for x in r]
+    return tuple(dot(force, tuple(each[i] for each in slopes)) for i in range(len(symbols.moving)))
 
 
-def _dot(a: Vector, b: Vector) -> Expr:
-    return sum((x * y for x, y in zip(a, b, strict=True)), ZERO)
+def _values(symbols: Symbols) -> Vector:
+    return tuple(symbols.values[name] for name in symbols.moving)
 
 
 def _is_uniform(force: Vector, symbols: Symbols) -> bool:

@@ -30,9 +30,10 @@ from ..mechanics.scene import Scene
 from .compiled import Compiled, compile_expressions
 from .equations import Equations, equations, guided_into
 from .functions import Expr, sign
-from .kinetic import ZERO, Vector, velocity
+from .kinetic import ZERO, Vector, dot, velocity
 from .model import ByMechanics, Model, build
 from .piecewise import Smoothing, by_signs
+from .slopes import gradient, slope
 from .symbols import Symbols
 from .symengine_algebra import to_symengine
 
@@ -267,8 +268,8 @@ class _Assembly:
     def _change(self, g: Expr) -> Expr:
         """ġ = ∂g/∂q q̇ + ∂g/∂t"""
         symbols = self.plain.symbols
-        moved = (g.diff(symbols.values[name]) * symbols.rates[name] for name in symbols.free)
-        return sum(moved, g.diff(symbols.time))
+        *slopes, by_time = gradient(g, [*(symbols.values[name] for name in symbols.free), symbols.time])
+        return by_time + dot(slopes, [symbols.rates[name] for name in symbols.free])
 
     def coupled(self) -> Iterator[tuple[int, int]]:
         """See `Modes.coupled`."""
@@ -278,9 +279,9 @@ class _Assembly:
 
     def _row(self, w: Expr) -> Row:
         symbols = self.plain.symbols
-        a = tuple(w.diff(symbols.rates[name]) for name in symbols.free)
-        bias = sum((w.diff(symbols.values[name]) * symbols.rates[name] for name in symbols.free), w.diff(symbols.time))
-        power = _dot(a, [symbols.rates[name] for name in symbols.free])
+        a = gradient(w, [symbols.rates[name] for name in symbols.free])
+        bias = self._change(w)
+        power = dot(a, [symbols.rates[name] for name in symbols.free])
         return Row(a, w, bias, a, power)
 
     def _held(self, expression: Expr) -> Expr:
@@ -310,8 +311,8 @@ class _Assembly:
         none = [ZERO] * len(gamma)
         columns = [*([*row.along, *none] for row in self.rows), [*forcing, *gamma]]
         solved = [each[: len(forcing)] for each in _solve(self._augmented, columns)]
-        flexibility = [[_dot(row.a, solved[j]) for j in range(m)] for row in self.rows]
-        load = [-(_dot(row.a, solved[m]) + row.bias) for row in self.rows]
+        flexibility = [[dot(row.a, solved[j]) for j in range(m)] for row in self.rows]
+        load = [-(dot(row.a, solved[m]) + row.bias) for row in self.rows]
         matrix = [
             [
                 self.flags[i] * self.flags[j] * flexibility[i][j] + (ONE - self.flags[i] if i == j else ZERO)
@@ -383,7 +384,7 @@ class _Assembly:
         for index in self.contacts:
             event, restitution = self.plain.events[index], self.scene.events[index].restitution
             coefficient = ZERO if restitution is None else to_symengine(restitution.tree, self.plain.symbols)
-            found += [event, event.diff(self.plain.symbols.time), coefficient]
+            found += [event, slope(event, self.plain.symbols.time), coefficient]
         pins = self.switches[len(self.switches) - self.pins :]
         values = (self.signs.values[i] for i in (*self.kinks, *pins))
         return [*found, *values, *self.reactions, *self._friction_forces()]
@@ -427,7 +428,3 @@ def _solve(matrix: Sequence[Sequence[Expr]], columns: Sequence[Sequence[Expr]]) 
             known = sum((rows[i][j] * right[j] for j in range(i + 1, n)), ZERO)
             right[i] = (right[i] - known) / rows[i][i]
     return rights
-
-
-def _dot(a: Sequence[Expr], b: Sequence[Expr]) -> Expr:
-    return sum((x * y for x, y in zip(a, b, strict=True)), ZERO)

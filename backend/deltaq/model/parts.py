@@ -19,3 +19,20 @@ def parts(expressions: Iterable[Expr], kind: type) -> set[Expr]:
             seen.add(part)
             open_ones.extend(part.args)
     return {part for part in seen if isinstance(part, kind)}
+
+
+def outermost(expression: Expr, kinds: tuple[type, ...]) -> set[Expr]:
+    """The distinct parts of some kinds that stand in no other such part."""
+    seen: set[Expr] = set()
+    found: set[Expr] = set()
+    open_ones = [expression]
+    while open_ones:
+        part = open_ones.pop()
+        if part in seen:
+            continue
+        seen.add(part)
+        if isinstance(part, kinds):
+            found.add(part)
+        else:
+            open_ones.extend(part.args)
+    return found

@@ -18,6 +18,7 @@ from .compiled import THOROUGH, Compiled, compile_expressions
 from .equations import Equations
 from .functions import Expr
 from .kinetic import Vector
+from .slopes import gradient
 from .solved import solved
 
 POINTS, NEGLIGIBLE = 3, 1e-13
@@ -62,7 +63,7 @@ def momenta_and_rates(eqs: Equations) -> tuple[Vector, Vector]:
     """p = ∂E/∂q̇ and ṗ = ∂E/∂q + Q, without the first of these where it is zero."""
     symbols = eqs.symbols
     momenta, slopes = (
-        tuple(eqs.kinetic.diff(of[name]) for name in symbols.free) for of in (symbols.rates, symbols.values)
+        gradient(eqs.kinetic, [of[name] for name in symbols.free]) for of in (symbols.rates, symbols.values)
     )
     if all(vanishes(slope) for slope in slopes):
         return momenta, eqs.forces

@@ -2,6 +2,8 @@
 
 A piece f₊ where s > 0, f₋ where s < 0 is (f₊ + f₋)/2 + σ (f₊ − f₋)/2 with σ = sign s. On s = 0 any σ from −1 to 1 is
 one of Filippov's values. A force only bends there if what σ is multiplied by vanishes with s.
+A piece without a jump that stands under a root or a logarithm stays as it is, and only its sign is told: a step that
+ends behind s = 0 takes f₊ beyond its half, where √f₊ has no value.
 Source: Filippov, Differential Equations with Discontinuous Righthand Sides, §4.
 """
 
@@ -16,6 +18,7 @@ from .parts import parts
 from .symbols import Symbols
 
 HALF = se.Rational(1, 2)
+NARROW = (se.log, se.asin, se.acos, se.acosh, se.atanh)  # functions without values for some numbers
 
 
 class Smoothing:
@@ -34,16 +37,21 @@ class Smoothing:
 
     def smooth(self, expression: Expr) -> Expr:
         """The expression with every kink of the state replaced by its sign, innermost first."""
+        kept: dict[Expr, Expr] = {}
         while True:
             found = [
                 piece
                 for piece in sorted(parts([expression], se.Piecewise), key=str)
                 if not parts(_branches(piece), se.Piecewise) and _is_choice(piece)
             ]
-            chosen = next((p for p in found if self._is_switched(_margin(p))), None)
+            chosen = next((p for p in found if self._is_switched(_restored(_margin(p), kept))), None)
             if chosen is None:
-                return expression
-            expression = expression.subs({chosen: self._by_sign(chosen)})
+                return _restored(expression, kept)
+            other = self._by_sign(_restored(chosen, kept))
+            if _is_bent(chosen) and chosen in parts(_narrow(expression), se.Piecewise):
+                other = se.Symbol(f"kept{len(kept)}")
+                kept[other] = chosen
+            expression = expression.subs({chosen: other})
 
     def _is_switched(self, margin: Expr) -> bool:
         """Whether a choice depends on the state; one by what jumps itself is left as it is."""
@@ -125,6 +133,26 @@ def _without_number(value: Expr) -> Expr:
     """A product without the size of its number."""
     number = value.args[0] if isinstance(value, se.Mul) else se.Integer(1)
     return value / abs(number) if isinstance(number, (se.Integer, se.Rational)) else value
+
+
+def _restored(expression: Expr, kept: Mapping[Expr, Expr]) -> Expr:
+    """With the pieces that were kept, the last of which may have earlier ones in it."""
+    for symbol, piece in reversed(list(kept.items())):
+        expression = expression.subs({symbol: piece})
+    return expression
+
+
+def _narrow(expression: Expr) -> list[Expr]:
+    """What has to stay on one side of a bound: bases of roots, arguments of logarithms and inverse functions."""
+    roots = (each.args[0] for each in parts([expression], se.Pow) if not each.args[1].is_Integer)
+    return [*roots, *(each.args[0] for kind in NARROW for each in parts([expression], kind))]
+
+
+def _is_bent(piece: Expr) -> bool:
+    """Whether a piece only bends where its condition changes."""
+    above, below = _branches(piece)[:2]
+    margin = _margin(piece)
+    return _vanishes(above - below, margin, margin.free_symbols)
 
 
 def _branches(piece: Expr) -> tuple[Expr, ...]:

@@ -17,6 +17,7 @@ from .compiled import Compiled, compile_expressions
 from .equations import Equations, equations
 from .functions import Expr
 from .kinetic import ZERO
+from .slopes import slope
 from .symbols import CLOCK, Symbols
 from .symengine_algebra import to_symengine
 
@@ -55,7 +56,7 @@ def _own(scene: Scene, own: Symbols, wide: Equations, name: str) -> Mapping[Expr
     accelerations = {there.accelerations[each]: own.accelerations[each] for each in there.free if each != name}
     guide = next((guide for guide in scene.guides if guide.coordinate == name), None)
     value = own.values[name] if guide is None else to_symengine(guide.value.tree, own)
-    rate = ZERO if guide is None else value.diff(own.values[CLOCK])
-    acceleration = ZERO if guide is None else rate.diff(own.values[CLOCK])
+    rate = ZERO if guide is None else slope(value, own.values[CLOCK])
+    acceleration = ZERO if guide is None else slope(rate, own.values[CLOCK])
     as_held = {there.values[name]: value, there.rates[name]: rate, there.accelerations[name]: acceleration}
     return {**values, **rates, **accelerations, **as_held}

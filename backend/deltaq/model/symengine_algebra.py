@@ -12,6 +12,7 @@ import symengine as se
 
 from ..language.tree import Node, fold
 from .functions import FUNCTIONS, Expr
+from .slopes import gradient, joined, slope
 from .symbols import CLOCK, Symbols
 
 
@@ -50,12 +51,15 @@ class SymEngineAlgebra:
 
     def time_derivative(self, operand: Expr) -> Expr:
         symbols = self.symbols
-        along_motion = [operand.diff(symbols.values[name]) * symbols.rates[name] for name in symbols.moving[:-1]]
-        of_rates = [operand.diff(symbols.rates[name]) * symbols.accelerations[name] for name in symbols.moving[:-1]]
-        return reduce(add, along_motion + of_rates, operand.diff(symbols.values[CLOCK]))
+        names = symbols.moving[:-1]
+        orders = (symbols.values, symbols.rates, symbols.accelerations)
+        states = [each[name] for each in orders[:2] for name in names]
+        changes = [each[name] for each in orders[1:] for name in names]
+        *slopes, by_time = gradient(operand, [*states, symbols.values[CLOCK]])
+        return reduce(add, map(mul, slopes, changes), by_time)
 
     def partial_derivative(self, operand: Expr, variable: Expr) -> Expr:
-        return operand.diff(variable)
+        return slope(operand, variable)
 
     def variation(self, name: str, _order: int) -> NoReturn:
         raise ValueError(f"a model has no virtual displacement of {name}")
@@ -72,4 +76,4 @@ class SymEngineAlgebra:
 
 def to_symengine(node: Node, symbols: Symbols) -> Expr:
     """The SymEngine expression of a scalar tree."""
-    return fold(node, SymEngineAlgebra(symbols))
+    return joined(fold(node, SymEngineAlgebra(symbols)))
