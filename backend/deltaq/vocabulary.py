@@ -27,6 +27,7 @@ Status = Literal[
     "tolerance_missed",
     "guide_jumps",
     "singular_constraints",
+    "singular",
 ]
 # The same of a run among many, which was not tried where the one before took too long.
 TriedStatus = Literal[Status, "too_slow"]

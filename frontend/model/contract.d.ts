@@ -2072,7 +2072,7 @@ export interface components {
              * Status
              * @enum {string}
              */
-            status: "ok" | "event" | "stopped" | "cancelled" | "step_limit" | "singular_mass_matrix" | "diverged" | "newton_failed" | "stiff" | "unresolved" | "step_blind" | "horizon_reached" | "tolerance_missed" | "guide_jumps" | "singular_constraints" | "too_slow";
+            status: "ok" | "event" | "stopped" | "cancelled" | "step_limit" | "singular_mass_matrix" | "diverged" | "newton_failed" | "stiff" | "unresolved" | "step_blind" | "horizon_reached" | "tolerance_missed" | "guide_jumps" | "singular_constraints" | "singular" | "too_slow";
             /**
              * Error
              * @description largest of any coordinate: absolute below 1, relative above
@@ -3057,7 +3057,7 @@ export interface components {
              * Status
              * @enum {string}
              */
-            status: "ok" | "event" | "stopped" | "cancelled" | "step_limit" | "singular_mass_matrix" | "diverged" | "newton_failed" | "stiff" | "unresolved" | "step_blind" | "horizon_reached" | "tolerance_missed" | "guide_jumps" | "singular_constraints" | "too_slow";
+            status: "ok" | "event" | "stopped" | "cancelled" | "step_limit" | "singular_mass_matrix" | "diverged" | "newton_failed" | "stiff" | "unresolved" | "step_blind" | "horizon_reached" | "tolerance_missed" | "guide_jumps" | "singular_constraints" | "singular" | "too_slow";
             /**
              * T
              * @description ends of the stretches of time
@@ -3379,7 +3379,7 @@ export interface components {
              *       "ok"
              *     ]
              */
-            status: ("ok" | "event" | "stopped" | "cancelled" | "step_limit" | "singular_mass_matrix" | "diverged" | "newton_failed" | "stiff" | "unresolved" | "step_blind" | "horizon_reached" | "tolerance_missed" | "guide_jumps" | "singular_constraints")[];
+            status: ("ok" | "event" | "stopped" | "cancelled" | "step_limit" | "singular_mass_matrix" | "diverged" | "newton_failed" | "stiff" | "unresolved" | "step_blind" | "horizon_reached" | "tolerance_missed" | "guide_jumps" | "singular_constraints" | "singular")[];
             /**
              * Coordinates
              * @description by coordinate, a column for each run
@@ -5151,7 +5151,7 @@ export interface components {
              * @description ok, or how the motion ended before its time
              * @enum {string}
              */
-            status: "ok" | "event" | "stopped" | "cancelled" | "step_limit" | "singular_mass_matrix" | "diverged" | "newton_failed" | "stiff" | "unresolved" | "step_blind" | "horizon_reached" | "tolerance_missed" | "guide_jumps" | "singular_constraints";
+            status: "ok" | "event" | "stopped" | "cancelled" | "step_limit" | "singular_mass_matrix" | "diverged" | "newton_failed" | "stiff" | "unresolved" | "step_blind" | "horizon_reached" | "tolerance_missed" | "guide_jumps" | "singular_constraints" | "singular";
             /**
              * Span
              * @description seconds that were followed
@@ -5435,7 +5435,7 @@ export interface components {
              * Status
              * @enum {string}
              */
-            status: "ok" | "event" | "stopped" | "cancelled" | "step_limit" | "singular_mass_matrix" | "diverged" | "newton_failed" | "stiff" | "unresolved" | "step_blind" | "horizon_reached" | "tolerance_missed" | "guide_jumps" | "singular_constraints" | "refused";
+            status: "ok" | "event" | "stopped" | "cancelled" | "step_limit" | "singular_mass_matrix" | "diverged" | "newton_failed" | "stiff" | "unresolved" | "step_blind" | "horizon_reached" | "tolerance_missed" | "guide_jumps" | "singular_constraints" | "singular" | "refused";
             /**
              * Largest
              * @description distance from the full motion, in metres
@@ -5540,7 +5540,7 @@ export interface components {
              * Status
              * @enum {string}
              */
-            status: "ok" | "event" | "stopped" | "cancelled" | "step_limit" | "singular_mass_matrix" | "diverged" | "newton_failed" | "stiff" | "unresolved" | "step_blind" | "horizon_reached" | "tolerance_missed" | "guide_jumps" | "singular_constraints" | "too_slow";
+            status: "ok" | "event" | "stopped" | "cancelled" | "step_limit" | "singular_mass_matrix" | "diverged" | "newton_failed" | "stiff" | "unresolved" | "step_blind" | "horizon_reached" | "tolerance_missed" | "guide_jumps" | "singular_constraints" | "singular" | "too_slow";
             /**
              * Error
              * @description largest of any coordinate: absolute below 1, relative above
@@ -5840,7 +5840,7 @@ export interface components {
              * @description ok, horizon_reached, or how the motion ended before its time
              * @enum {string}
              */
-            status: "ok" | "event" | "stopped" | "cancelled" | "step_limit" | "singular_mass_matrix" | "diverged" | "newton_failed" | "stiff" | "unresolved" | "step_blind" | "horizon_reached" | "tolerance_missed" | "guide_jumps" | "singular_constraints";
+            status: "ok" | "event" | "stopped" | "cancelled" | "step_limit" | "singular_mass_matrix" | "diverged" | "newton_failed" | "stiff" | "unresolved" | "step_blind" | "horizon_reached" | "tolerance_missed" | "guide_jumps" | "singular_constraints" | "singular";
             /**
              * Chaotic
              * @description whether it loses its digits exponentially; null: too few points to tell
@@ -7610,7 +7610,7 @@ export interface components {
              *       "never_met"
              *     ]
              */
-            status: ("ok" | "event" | "stopped" | "cancelled" | "step_limit" | "singular_mass_matrix" | "diverged" | "newton_failed" | "stiff" | "unresolved" | "step_blind" | "horizon_reached" | "tolerance_missed" | "guide_jumps" | "singular_constraints" | "refused" | "never_met" | "contained" | "full")[];
+            status: ("ok" | "event" | "stopped" | "cancelled" | "step_limit" | "singular_mass_matrix" | "diverged" | "newton_failed" | "stiff" | "unresolved" | "step_blind" | "horizon_reached" | "tolerance_missed" | "guide_jumps" | "singular_constraints" | "singular" | "refused" | "never_met" | "contained" | "full")[];
             /**
              * T
              * @description seconds
@@ -7702,7 +7702,7 @@ export interface components {
              * @example ok
              * @enum {string}
              */
-            status: "ok" | "event" | "stopped" | "cancelled" | "step_limit" | "singular_mass_matrix" | "diverged" | "newton_failed" | "stiff" | "unresolved" | "step_blind" | "horizon_reached" | "tolerance_missed" | "guide_jumps" | "singular_constraints";
+            status: "ok" | "event" | "stopped" | "cancelled" | "step_limit" | "singular_mass_matrix" | "diverged" | "newton_failed" | "stiff" | "unresolved" | "step_blind" | "horizon_reached" | "tolerance_missed" | "guide_jumps" | "singular_constraints" | "singular";
             /**
              * Reason
              * @description the status as a sentence
@@ -8615,7 +8615,7 @@ export interface components {
              * Status
              * @enum {string}
              */
-            status: "ok" | "event" | "stopped" | "cancelled" | "step_limit" | "singular_mass_matrix" | "diverged" | "newton_failed" | "stiff" | "unresolved" | "step_blind" | "horizon_reached" | "tolerance_missed" | "guide_jumps" | "singular_constraints";
+            status: "ok" | "event" | "stopped" | "cancelled" | "step_limit" | "singular_mass_matrix" | "diverged" | "newton_failed" | "stiff" | "unresolved" | "step_blind" | "horizon_reached" | "tolerance_missed" | "guide_jumps" | "singular_constraints" | "singular";
             /**
              * Evaluations
              * @description of the right-hand side
@@ -9857,7 +9857,7 @@ export interface components {
              * @description ok, or how the motion ended before its time
              * @enum {string}
              */
-            status: "ok" | "event" | "stopped" | "cancelled" | "step_limit" | "singular_mass_matrix" | "diverged" | "newton_failed" | "stiff" | "unresolved" | "step_blind" | "horizon_reached" | "tolerance_missed" | "guide_jumps" | "singular_constraints";
+            status: "ok" | "event" | "stopped" | "cancelled" | "step_limit" | "singular_mass_matrix" | "diverged" | "newton_failed" | "stiff" | "unresolved" | "step_blind" | "horizon_reached" | "tolerance_missed" | "guide_jumps" | "singular_constraints" | "singular";
             /**
              * Folds
              * @description after so many periods or passages it repeats; 0: after none of those looked at

@@ -258,6 +258,7 @@ STATUSES = (
     "stopped",
     "diverged",
     "singular_mass_matrix",
+    "singular",
     "unresolved",
     "step_limit",
     "horizon_reached",

@@ -159,13 +159,13 @@ STATUSES = [
     ),
     pytest.param(kicked("m*x^3"), "dop853", {"tolerance": 1e-6}, 10.0, "diverged", "diverged", id="blow-up"),
     pytest.param(
-        kicked("-m*sqrt(x)"), "dop853", {"tolerance": 1e-6}, 10.0, "diverged", "not_finite", id="leaves the domain"
+        kicked("-m*sqrt(x)"), "dop853", {"tolerance": 1e-6}, 10.0, "singular", "singular", id="leaves the domain"
     ),
     pytest.param(
-        kicked("-m/x"), "dormand-prince-54", {"tolerance": 1e-6}, 10.0, "diverged", "step_underflow", id="collision"
+        kicked("-m/x"), "dormand-prince-54", {"tolerance": 1e-6}, 10.0, "singular", "singular", id="collision"
     ),
     pytest.param(
-        kicked("m/x", x=0.0), "rk4", {"step": 0.1}, 1.0, "diverged", "not_finite", id="nothing finite"
+        kicked("m/x", x=0.0), "rk4", {"step": 0.1}, 1.0, "singular", "singular", id="nothing finite"
     ),
     pytest.param(
         standstill(), "dop853", {"tolerance": 1e-6}, 1.0, "singular_mass_matrix", "singular_mass_matrix", id="dead"
@@ -192,7 +192,7 @@ STATUSES = [
         id="at the pole, implicitly",
     ),
     pytest.param(
-        kicked("m/x", x=0.0), "newmark", {"step": 0.1}, 1.0, "diverged", "not_finite", id="nothing finite, implicitly"
+        kicked("m/x", x=0.0), "newmark", {"step": 0.1}, 1.0, "singular", "singular", id="nothing finite, implicitly"
     ),
     pytest.param(
         oscillator(), "stormer-verlet", {"step": 1.1}, 200.0, "diverged", "unstable_step", id="step too large"

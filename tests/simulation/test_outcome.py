@@ -42,6 +42,7 @@ def test_no_two_reports_of_kernels_are_one() -> None:
         ("newton_failed", False),
         ("singular_mass_matrix", False),
         ("singular_constraints", False),
+        ("singular", False),
         ("unresolved", False),
         ("cancelled", False),
     ],

@@ -5,14 +5,16 @@ from __future__ import annotations
 from ..mechanics.jumps import MOST
 from .attempt import Attempt
 from .audit import GuideJump
-from .kernels.motion import HELD, TOO_LARGE
+from .kernels.motion import HELD, NOT_FINITE, STEP_UNDERFLOW, TOO_LARGE
 from .method import Method
 from .outcome import OK, Number, Outcome, outcome_of
 from .problem import Problem
 from .rounding import short
+from .singular import vanishing_margin
 from .stability import largest_stable_step
 from .stiffness import eigenvalues
 
+WITHOUT_VALUE = (NOT_FINITE, STEP_UNDERFLOW, TOO_LARGE)  # what runs end by where something has no finite value
 SMALL = 1e-5  # an error of a time, relative to it, that is not worth telling in a sentence
 
 
@@ -62,6 +64,9 @@ def _failed(
     steps = int(failed.result.steps + failed.result.rejected)
     if step is not None and failed.result.outcome == TOO_LARGE:
         return _grown(problem, method, step, told)
+    vanishing = vanishing_margin(problem, failed) if failed.result.outcome in WITHOUT_VALUE else None
+    if vanishing is not None:
+        return Outcome("singular", "singular", told | {"name": vanishing[:MOST]})
     where = {"name": failed.at[:MOST]} if failed.at else {}
     given = {"step": short(step)} if step is not None else {}
     return outcome_of(int(failed.result.outcome), told | {"steps": steps} | given | where)

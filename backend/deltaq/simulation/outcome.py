@@ -90,5 +90,6 @@ def codes() -> tuple[str, ...]:
         "unstable_step",
         "event_timed",
         "event_doubtful",
+        "singular",
     )
     return (*(code for _, code in _WORDS.values()), *others)

@@ -230,7 +230,7 @@ def _cut(trajectory: Trajectory, good: int) -> Trajectory:
     found, ended = trajectory.estimate, trajectory.outcome
     last = float(trajectory.times[max(good - 1, 0)])
     if ended.status == "ok" or last < trajectory.reached:
-        ended = Outcome("diverged", "not_finite", {**ended.parameters, "t": last})
+        ended = Outcome("singular", "not_finite", {**ended.parameters, "t": last})
     return replace(
         trajectory,
         outcome=ended,
