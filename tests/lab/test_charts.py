@@ -240,7 +240,7 @@ def test_what_a_peer_compiled_is_told_apart() -> None:
 
 def test_every_way_to_end_has_its_words_and_no_word_is_left_over() -> None:
     ends = {outcome_of(kernel, {}).status for kernel in range(NO_DIRECTION + 1)}
-    seen = {"unresolved", "step_blind", "guide_jumps", "horizon_reached", "tolerance_missed", "too_slow"}
+    seen = {"unresolved", "step_blind", "guide_jumps", "horizon_reached", "tolerance_missed", "too_slow", "singular"}
     assert set(keys("en", "labs.status")) == ends | seen
 
 

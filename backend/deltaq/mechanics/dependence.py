@@ -9,6 +9,7 @@ import math
 import random
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 
 from ..errors import Problem
 from ..language.floats import evaluate
@@ -47,7 +48,7 @@ class _Rows:
         return cls(rows) if all(math.isfinite(entry) for row in rows for entry in row) else None
 
     def is_idle(self, index: int) -> bool:
-        return max(map(abs, self.rows[index])) <= NOTHING * max(abs(entry) for row in self.rows for entry in row)
+        return not any(self.rows[index])
 
     def tie(self) -> tuple[int, ...]:
         """The rows that depend on one another, the last of them on the others; empty if none do.
@@ -56,7 +57,7 @@ class _Rows:
         coordinates depends on the others wherever it comes from: that is no tie.
         """
         basis, kept = list[Row](), list[int]()
-        for index, row in enumerate(self.rows):
+        for index, row in enumerate(self._balanced):
             rest = unit(row)
             for each in (*basis, *basis):
                 rest = minus(rest, each, dot(rest, each))
@@ -71,8 +72,18 @@ class _Rows:
 
     def _is_needed(self, without: int, kept: list[int], index: int) -> bool:
         """Whether row `index` depends on those kept no longer if one of them is left out."""
-        others = [self.rows[i] for i in kept if i != without]
-        return len(independent([*others, self.rows[index]], NOTHING)) == len(kept)
+        others = [self._balanced[i] for i in kept if i != without]
+        return len(independent([*others, self._balanced[index]], NOTHING)) == len(kept)
+
+    @cached_property
+    def _balanced(self) -> tuple[Row, ...]:
+        """The rows with coordinates in units in which each counts as much in some row as any other in its own.
+
+        What depends on what is the same in all units, and lengths may be told in 10⁻¹² or 10¹² of those of others.
+        """
+        rows = [tuple(entry / largest for entry in row) for row in self.rows if (largest := max(map(abs, row)) or 1.0)]
+        units = [max(abs(row[i]) for row in rows) or 1.0 for i in range(len(rows[0]))]
+        return tuple(tuple(entry / size for entry, size in zip(row, units, strict=True)) for row in rows)
 
 
 def _tied(

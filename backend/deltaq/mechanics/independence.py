@@ -13,10 +13,10 @@ from collections.abc import Iterator
 from ..errors import Problem
 from ..language.expression import Expression
 from ..language.floats import evaluate
+from ..language.gradients import gradient
 from .constraints.distance import DistanceConstraint
 from .dependence import dependence_problems, random_points
 from .loads.friction import DryFriction
-from .rows import STEP, growth
 from .scene import Scene
 
 
@@ -43,7 +43,7 @@ def _is_still(scene: Scene, value: Expression) -> bool:
     """Whether no coordinate changes a value, at random places where it is a number."""
     names = [coordinate.name for coordinate in scene.coordinates]
     points = random_points(scene.start, names)
-    rows = [[growth(value.tree, point, name, STEP) for name in names] for point in points]
+    rows = [gradient(value.tree, point, names) for point in points]
     known = [row for row in rows if all(map(math.isfinite, row))]
     return bool(known) and not any(any(row) for row in known)
 

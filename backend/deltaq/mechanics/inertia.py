@@ -146,9 +146,8 @@ def _dependent(matrix: Matrix) -> tuple[int, ...]:
     Gaussian elimination with complete pivoting on the matrix scaled to a unit diagonal.
     """
     scales = [math.sqrt(max(row[i], 0.0)) for i, row in enumerate(matrix)]
-    largest = max(scales)
     for i, scale in enumerate(scales):
-        if scale <= NOTHING * largest:
+        if scale == 0.0:
             return (i,)
     size = range(len(matrix))
     rows = [[matrix[i][j] / (scales[i] * scales[j]) for j in size] for i in size]

@@ -9,10 +9,11 @@ import math
 from collections.abc import Iterator, Mapping
 
 from ..language.floats import evaluate
+from ..language.gradients import gradient
+from ..language.spelling import spell_rate
 from ..language.tree import Node, TimeDerivative
 from .kinetics import Distribution, Kinetics, Rotation, Translation
 from .material import Material
-from .rows import STEP
 from .scene import Scene
 
 NOTHING = 1e-12  # of the largest entry of a tensor: what elimination leaves of nothing
@@ -26,7 +27,7 @@ Share = tuple[float, list[list[float]]]  # an inertia, and the velocity it has f
 def motions_matrix(scene: Scene, point: Point) -> Matrix | None:
     """Σ JᵀJ over all that has mass, however little: singular just where M is, since M = Σ m Jᵀ J with m > 0.
 
-    By central differences; None where a position is not defined.
+    None where a position has no slope.
     """
     size = range(len(scene.free))
     total = [[0.0] * len(size) for _ in size]
@@ -111,13 +112,8 @@ def _weighted(weights: list[float], rates: tuple[float, ...]) -> float:
 
 def _tangents(position: tuple[Node, ...], scene: Scene, point: Point) -> list[list[float]]:
     """∂r/∂q for every free coordinate."""
-
-    def moved(name: str, step: float) -> list[float]:
-        values = _guided(scene, {**point, name: point[name] + step})
-        return [evaluate(component, values) for component in position]
-
-    pairs = [(moved(c.name, STEP), moved(c.name, -STEP)) for c in scene.free]
-    return [[(a - b) / (2 * STEP) for a, b in zip(ahead, behind, strict=True)] for ahead, behind in pairs]
+    values, names = _guided(scene, point), [c.name for c in scene.free]
+    return [list(each) for each in zip(*(gradient(component, values, names) for component in position), strict=True)]
 
 
 def rates_of_turning(part: Rotation, scene: Scene, point: Point) -> list[tuple[float, ...]]:
@@ -130,10 +126,9 @@ def _turning(omega: Node, scene: Scene, point: Point) -> list[list[float]]:
     """∂ω/∂q̇ for every free coordinate; ω is the rate of an angle, or given with rates."""
     if isinstance(omega, TimeDerivative):
         return _tangents((omega.operand,), scene, point)
-    rest = {f"dot({c.name})": 0.0 for c in scene.coordinates}
-    at_rest = evaluate(omega, _guided(scene, {**point, **rest}))
-    units = [{**point, **rest, f"dot({c.name})": 1.0} for c in scene.free]
-    return [[evaluate(omega, _guided(scene, unit)) - at_rest] for unit in units]
+    rest = {spell_rate(c.name, 1): 0.0 for c in scene.coordinates}
+    slopes = gradient(omega, _guided(scene, {**point, **rest}), [spell_rate(c.name, 1) for c in scene.free])
+    return [[slope] for slope in slopes]
 
 
 def nodes(material: tuple[Material, ...], point: Point) -> Iterator[tuple[float, Point]]:

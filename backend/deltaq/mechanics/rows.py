@@ -5,29 +5,26 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping, Sequence
 
-from ..language.expression import Expression
 from ..language.floats import evaluate
+from ..language.gradients import gradient
 from ..language.spelling import spell_rate
-from ..language.tree import Node
 from .conditions import Condition
 
-STEP = 1e-5
-NOTHING = 1e-7  # the differences are good to about 1e-10, of lengths of a millimetre to 1e-8
+NOTHING = 1e-7  # of a row of length 1
 
 Row = tuple[float, ...]
 Point = Mapping[str, float]
 
 
 def row_of(condition: Condition, free: Sequence[str], point: Point) -> Row:
-    """The coefficients of the virtual displacements in a condition, by central differences of fourth order.
+    """The coefficients of the virtual displacements in a condition, zero where only rounding leaves something.
 
     The point names coordinates, rates, parameters and t.
     """
     if condition.is_holonomic:
-        names = Expression("", condition.value).names
-        return tuple(_slope(condition.value, point, name) if name in names else 0.0 for name in free)
+        return gradient(condition.value, point, free)
     still = {**point, **{name: 0.0 for name in point if name.startswith("dot(")}}
-    return tuple(growth(condition.value, still, spell_rate(name, 1), 1.0) / 2 for name in free)
+    return gradient(condition.value, still, [spell_rate(name, 1) for name in free])
 
 
 def rate_of(condition: Condition, free: Sequence[str], point: Point) -> float:
@@ -35,18 +32,7 @@ def rate_of(condition: Condition, free: Sequence[str], point: Point) -> float:
     if not condition.is_holonomic:
         return evaluate(condition.value, point)
     along = dot(row_of(condition, free, point), tuple(point[spell_rate(name, 1)] for name in free))
-    return along + (_slope(condition.value, point, "t") if "t" in Expression("", condition.value).names else 0.0)
-
-
-def _slope(node: Node, point: Point, name: str) -> float:
-    near, far = (growth(node, point, name, step) for step in (STEP, 2 * STEP))
-    return (8 * near - far) / (12 * STEP)
-
-
-def growth(node: Node, point: Point, name: str, step: float) -> float:
-    """What the value of an expression grows by between a step below and a step above."""
-    up, down = {**point, name: point[name] + step}, {**point, name: point[name] - step}
-    return evaluate(node, up) - evaluate(node, down)
+    return along + gradient(condition.value, point, ["t"])[0]
 
 
 def independent(rows: Sequence[Row], nothing: float) -> tuple[int, ...]:
