@@ -100,3 +100,46 @@ def test_a_turn_the_wrong_way_is_told() -> None:
 @pytest.mark.parametrize("name", scene_ids())
 def test_built_in_bodies_have_axes_of_their_own(name: str) -> None:
     assert [each for each in soundness_problems(load_scene(name)) if each.code in {OFF, NONE}] == []
+
+
+EULER = sp.symbols("a b c d")
+
+
+def by_euler_parameters(frame: str) -> list[str]:
+    """2 q̄ q̇ along axes of the body, 2 q̇ q̄ along those of space; the product is Hamilton's, of SymPy."""
+    q = sp.Quaternion(*EULER)
+    rate = sp.Quaternion(*sp.symbols("a_rate b_rate c_rate d_rate"))
+    whole = (q.conjugate() * rate if frame == "body" else rate * q.conjugate()).expand()
+    written = [str(sp.expand(2 * part)) for part in (whole.b, whole.c, whole.d)]
+    for name in map(str, EULER):
+        written = [text.replace(f"{name}_rate", f"dot({name})") for text in written]
+    return written
+
+
+@pytest.mark.parametrize(
+    ("frame", "factor", "moments", "expected"),
+    [
+        pytest.param("body", "1", BOX, set(), id="along axes of the body"),
+        pytest.param("body", "1", BALL, set(), id="of a ball"),
+        pytest.param("body", "1/(a^2 + b^2 + c^2 + d^2)", BOX, set(), id="right beside the constraint, too"),
+        pytest.param("space", "1", BOX, {NONE}, id="along axes of space"),
+        pytest.param("space", "1", BALL, {OFF}, id="of a ball along them"),
+        pytest.param("body", "1/2", BOX, {NONE}, id="half as fast"),
+        pytest.param("body", "a", BOX, {NONE}, id="with a factor that moves"),
+    ],
+)
+def test_euler_parameters_are_looked_at_where_they_are_some(
+    frame: str, factor: str, moments: tuple[str, ...], expected: set[str]
+) -> None:
+    """Beside a² + b² + c² + d² = 1 these components are those of no rotation, which is no matter."""
+    top = {"name": "top", "kind": "rigid", "mass": "1", "position": ["0", "0", "0"], "inertia": list(moments)}
+    document = {
+        "format": 1,
+        "id": "top",
+        "dimension": 3,
+        "coordinates": [{"name": name, "value": 0.5} for name in map(str, EULER)],
+        "bodies": [top | {"angular_velocity": [f"({factor})*({each})" for each in by_euler_parameters(frame)]}],
+        "constraints": [{"kind": "equation", "name": "unit", "equation": "a^2 + b^2 + c^2 + d^2 = 1"}],
+    }
+    _, problems = examine(document)
+    assert {problem.code for problem in problems} & {OFF, NONE} == expected
