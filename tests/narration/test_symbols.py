@@ -82,3 +82,11 @@ def test_bold_letters_stay_bold_beside_a_parameter_f() -> None:
     chapters: Any = derive_request({"scene": document, "lang": "en"})["chapters"]
     (step,) = (step for chapter in chapters for step in chapter["steps"] if step["id"] == "matrix-form")
     assert "mathb\\mathcal" not in step["latex"]
+
+
+def test_a_sentence_calls_a_matrix_as_its_formula_does() -> None:
+    """The slider has a mass M; the mass matrix is a bold one."""
+    chapters: Any = derive_request({"scene": "slider-crank", "lang": "en"})["chapters"]
+    (step,) = (step for chapter in chapters for step in chapter["steps"] if step["id"] == "augmented-system")
+    assert r"\mathbf{M} &=" in step["latex"]
+    assert r"its blocks are $\mathbf{M}$" in step["text"]

@@ -18,7 +18,8 @@ OF_QUANTITIES = ("E", "V", "L", "S", "W", "R", "M", "h", "f", "x", "y", "I", "U"
 RELATED = {"x": r"\xi", "y": r"\eta"}  # the others become calligraphic
 LEADING = re.compile(r"^(-?(?:\\d?dot\{\{|\\delta )?)([A-Za-z])(?![A-Za-z])")
 MATHEMATICS = re.compile(r"\$[^$]+\$")
-WORD = re.compile(r"\\?[A-Za-z]+")
+# Bold letters, of vectors and matrices, are none that a scene has taken.
+WORD = re.compile(r"\\mathbf[ {]*[A-Za-z]+|\\?[A-Za-z]+")
 
 
 def letters_of(names: Names, letters: tuple[str, ...] = OF_QUANTITIES) -> Letters:
