@@ -58,12 +58,38 @@ export function entriesOf(body) {
 /** Every matrix of a formula made into something else. @param {string} latex @param {(matrix: string, entries: string[][]) => string} make */
 export const withMatrices = (latex, make) => latex.replace(MATRIX, (matrix, _, body) => make(matrix, entriesOf(body)));
 
+/** What is between the braces that begin at a token, and the token behind them. @param {string[]} tokens @param {number} begin @returns {[string, number]} */
+export function groupAt(tokens, begin) {
+  let [depth, at] = [0, begin];
+  do {
+    if (tokens[at] === "{") depth += 1;
+    if (tokens[at] === "}") depth -= 1;
+    at += 1;
+  } while (depth > 0 && at < tokens.length);
+  return [tokens.slice(begin + 1, at - 1).join(""), at];
+}
+
+/** Fractions within fractions would be set small twice in a matrix: the outermost of them is as large as outside. @param {string} matrix */
+function unshrunk(matrix) {
+  const tokens = tokensOf(matrix);
+  for (let at = 0; at < tokens.length; at += 1) {
+    if (tokens[at] !== "\\frac" || tokens[at + 1] !== "{") continue;
+    const [, middle] = groupAt(tokens, at + 1);
+    const [, end] = groupAt(tokens, middle);
+    if (!tokens.slice(at + 1, end).includes("\\frac")) continue;
+    tokens[at] = "\\dfrac";
+    at = end - 1;
+  }
+  return tokens.join("");
+}
+
 /** From one row of a matrix with fractions to the next, beyond what others have: set as closely they would touch; fractions of numbers that are set small need less. */
 const AIR = { some: "\\\\[0.1em] ", full: "\\\\[0.3em] " };
 
 /** Matrices with fractions, their rows apart. @param {string} latex */
 export const airy = (latex) =>
-  latex.replace(MATRIX, (matrix) => {
+  latex.replace(MATRIX, (given) => {
+    const matrix = unshrunk(given);
     const large = /\\d?frac|\\tfrac(?!\{\d+\}\{\d+\})/.test(matrix);
     const apart = large ? AIR.full : /\\tfrac/.test(matrix) ? AIR.some : null;
     return apart ? matrix.replace(/\\\\(?!\[)\s*/g, () => apart) : matrix;

@@ -3,7 +3,7 @@
  * textbooks set it. Classes that colour a sum as a whole are kept on each of its lines.
  */
 
-import { cut, endsRow, parted, tokensOf } from "./latex.js";
+import { cut, endsRow, groupAt, parted, tokensOf } from "./latex.js";
 import { named, narrowed } from "./matrices.js";
 import { sizeOf } from "./measure.js";
 
@@ -49,12 +49,36 @@ function termsOf(sum, most, wide) {
 }
 
 /**
+ * A term whose fraction is too long for a sum above its bar: one over what is below it, times the sum, which may go on
+ * below within its brackets.
+ * @param {string} term @param {number} most @param {Wide} wide
+ */
+function unfolded(term, most, wide) {
+  const tokens = tokensOf(term);
+  let [depth, at] = [0, 0];
+  for (; at < tokens.length; at += 1) {
+    const token = tokens[at];
+    if (token === "{" || token.startsWith("\\begin")) depth += 1;
+    if (token === "}" || token.startsWith("\\end")) depth -= 1;
+    if (depth || token !== "\\frac" || tokens[at + 1] !== "{") continue;
+    const [above, middle] = groupAt(tokens, at + 1);
+    const [below, end] = groupAt(tokens, middle);
+    if (cut(above, joins).length < 2 || wide(`\\frac{${above}}{${below}}`) <= most) continue;
+    const [before, behind] = [tokens.slice(0, at).join(""), tokens.slice(end).join("")];
+    return `${before}\\frac{1}{${below}}\\left(${above}\\right)${behind}`;
+  }
+  return term;
+}
+
+/**
  * The pieces of a term that is too long by itself: it goes on within its outermost brackets, and within those inside
  * only where that is not enough.
  * @param {string} term @param {number} most @param {Wide} wide @param {number} [levels] @returns {string[]}
  */
 function opened(term, most, wide, levels = 1) {
-  const free = term.replace(/\\left([([])/g, "\\Bigl$1").replace(/\\right([)\]])/g, "\\Bigr$1");
+  const free = unfolded(term, most, wide)
+    .replace(/\\left([([])/g, "\\Bigl$1")
+    .replace(/\\right([)\]])/g, "\\Bigr$1");
   const pieces = cut(free, joins, levels);
   if (pieces.length === 1) return levels < DEEPEST ? opened(term, most, wide, levels + 1) : [term];
   return pieces.flatMap((piece) => (wide(piece) > most ? opened(piece, most, wide) : [piece]));

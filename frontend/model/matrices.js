@@ -32,14 +32,56 @@ function namesOf(left, entries) {
   return names;
 }
 
+/** An entry without its classes and what takes no room. @param {string} entry */
+const bare = (entry) => entry.replace(/\\htmlClass\{[^}]*\}|[\s{}]/g, "");
+
+/** The matrices of a formula that have rows of their own, by name. @param {Row[]} rows @param {(text: string) => string[]} sidesOf */
+function namedIn(rows, sidesOf) {
+  return rows.flatMap(({ text }) => {
+    const [left, right] = sidesOf(text);
+    const [[name] = [], [, body] = []] = [left.match(/\\math(?:bf|cal)\{[A-Z]\}/) ?? [], right.match(ALONE) ?? []];
+    return name && body ? [{ name, entries: entriesOf(body).map((row) => row.map(bare)) }] : [];
+  });
+}
+
+/** @param {string[][]} one @param {string[][]} other */
+const same = (one, other) => JSON.stringify(one) === JSON.stringify(other);
+/** @param {string[][]} entries */
+const transposed = (entries) => entries[0].map((_, j) => entries.map((row) => row[j]));
+
+/**
+ * A symmetric matrix by its blocks, a square one and one with its transpose, with zeros in the corner, where both are
+ * told by their names; null for any other.
+ * @param {string[][]} entries @param {ReturnType<typeof namedIn>} known
+ */
+function byBlocks(entries, known) {
+  const all = entries.map((row) => row.map(bare));
+  const part = (/** @type {[number, number]} */ rows, /** @type {[number, number]} */ columns) =>
+    all.slice(...rows).map((row) => row.slice(...columns));
+  for (const { name: square, entries: first } of known)
+    for (const { name: rows, entries: second } of known) {
+      const [k, n] = [first.length, all.length];
+      if (first[0].length !== k || second[0].length !== k || second.length !== n - k || all[0].length !== n) continue;
+      const zeros = part([k, n], [k, n]).every((row) => row.every((entry) => entry === "0"));
+      if (!zeros || !same(part([0, k], [0, k]), first) || !same(part([k, n], [0, k]), second)) continue;
+      if (!same(part([0, k], [k, n]), transposed(second))) continue;
+      return bracketed([
+        [square, `${rows}^T`],
+        [rows, "\\mathbf{0}"],
+      ]);
+    }
+  return null;
+}
+
 /**
  * Rows in which matrices of more than one column that are too wide have names for their entries, explained where the
- * matrix is first written.
+ * matrix is first written, or for their blocks, which rows of their own explain.
  * @param {Row[]} rows @param {number} most em @param {import("./linebreak.js").Wide} wide @param {(text: string) => string[]} sidesOf
  */
 export function named(rows, most, wide, sidesOf) {
   /** @type {Map<string, string>} */
   const known = new Map();
+  const told = namedIn(rows, sidesOf);
   let name = "";
   return rows.flatMap((row) => {
     const [left, right] = sidesOf(row.text);
@@ -48,7 +90,12 @@ export function named(rows, most, wide, sidesOf) {
     const [, body] = right.match(ALONE) ?? [];
     const entries = body ? entriesOf(body) : [];
     if (!body || entries[0].length < 2 || !NAME.test(name))
-      return [{ ...row, text: withMatrices(row.text, (matrix) => known.get(matrix) ?? matrix) }];
+      return [
+        {
+          ...row,
+          text: withMatrices(row.text, (matrix, parts) => known.get(matrix) ?? byBlocks(parts, told) ?? matrix),
+        },
+      ];
     const names = namesOf(name, entries);
     const compact = bracketed(entries.map((line) => line.map((entry) => names.get(entry) ?? entry)));
     known.set(right.trim().slice(1).trim(), compact);

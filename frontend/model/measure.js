@@ -173,6 +173,7 @@ function nucleus(reader, style) {
   reader.at += 1;
   if (token in GAPS) return [{ ...NOTHING, width: GAPS[token] * style.scale, kind: "gap" }];
   if (token === "\\frac") return [fraction(reader, style)];
+  if (token === "\\dfrac") return [fraction(reader, { ...style, display: true })];
   if (token === "\\tfrac") return [fraction(reader, { ...style, display: false })];
   if (token === "\\htmlClass") {
     skipGroup(reader);

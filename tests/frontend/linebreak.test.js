@@ -1,7 +1,7 @@
 import { strict as assert } from "node:assert";
 import { createRequire } from "node:module";
 import { test } from "node:test";
-import { weight } from "../../frontend/model/latex.js";
+import { airy, weight } from "../../frontend/model/latex.js";
 import { brokenRows, rowsOf } from "../../frontend/model/linebreak.js";
 import { sizeOf } from "../../frontend/model/measure.js";
 
@@ -17,6 +17,7 @@ function broken(latex, part) {
 /** Spaces mean nothing in it. @param {string} latex */
 const squeezed = (latex) => latex.replace(/\s/g, "");
 
+const BLOCKS = "\\begin{bmatrix} aaaa & 0 & \\htmlClass{q-0}{cccc} \\\\ 0 & bbbb & dddd \\\\ cccc & dddd & 0 \\end{bmatrix}";
 const CASES = [
   ["what is short enough stays", "\\begin{aligned}a &= b\\end{aligned}", 1, "\\begin{aligned}a &= b\\end{aligned}"],
   ["a sum goes on below before a sign", "\\begin{aligned}a &= bcd + efg - hij\\end{aligned}", 0.5,
@@ -48,6 +49,13 @@ const CASES = [
   ["a matrix whose name stands above keeps it further down",
     "\\begin{aligned}\\mathbf{K}_0 &= \\mathbf{K} \\\\ &= \\begin{bmatrix} aaaabbbb & 0 \\\\ 0 & ccccdddd \\end{bmatrix} \\\\ & \\begin{bmatrix} aaaabbbb & 0 \\\\ 0 & ccccdddd \\end{bmatrix}\\,x = 0\\end{aligned}", 0.7,
     "\\begin{aligned}\\mathbf{K}_0 &= \\mathbf{K} \\\\ &= \\begin{bmatrix} K_{0,11} & 0 \\\\ 0 & K_{0,22} \\end{bmatrix} \\\\[0.4em] K_{0,11} &= aaaabbbb \\\\[0.2em] K_{0,22} &= ccccdddd\\\\ & \\begin{bmatrix} K_{0,11} & 0 \\\\ 0 & K_{0,22} \\end{bmatrix}\\,x = 0\\end{aligned}"],
+  ["a sum too long for the bar below it is times one over what is below", "\\begin{aligned}a &= -\\frac{bbbb + cccc - dddd}{s_1}\\end{aligned}", 0.8,
+    "\\begin{aligned}a &= -\\frac{1}{s_1}\\Bigl(bbbb \\\\[0.2em] & \\qquad {} + cccc \\\\[0.2em] & \\qquad {} - dddd\\Bigr)\\end{aligned}"],
+  ["a long product above a bar stays", "\\begin{aligned}a &= \\frac{(b + c)(d + e)}{s}\\end{aligned}", 0.5, "\\begin{aligned}a &= \\frac{(b + c)(d + e)}{s}\\end{aligned}"],
+  ["a matrix of blocks that have names is written of these", `\\begin{aligned}& ${BLOCKS}\\,x = y \\\\ \\mathbf{M} &= \\begin{bmatrix} aaaa & 0 \\\\ 0 & bbbb \\end{bmatrix} \\\\ \\mathbf{A} &= \\begin{bmatrix} cccc & \\htmlClass{q-0}{dddd} \\end{bmatrix}\\end{aligned}`, 0.9,
+    "\\begin{aligned}& \\begin{bmatrix} \\mathbf{M} & \\mathbf{A}^T \\\\ \\mathbf{A} & \\mathbf{0} \\end{bmatrix}\\,x = y \\\\ \\mathbf{M} &= \\begin{bmatrix} aaaa & 0 \\\\ 0 & bbbb \\end{bmatrix} \\\\ \\mathbf{A} &= \\begin{bmatrix} cccc & \\htmlClass{q-0}{dddd} \\end{bmatrix}\\end{aligned}"],
+  ["and one of other entries is not", `\\begin{aligned}& ${BLOCKS}\\,x = y \\\\ \\mathbf{M} &= \\begin{bmatrix} aaaa & 0 \\\\ 0 & bbbb \\end{bmatrix} \\\\ \\mathbf{A} &= \\begin{bmatrix} cccc & eeee \\end{bmatrix}\\end{aligned}`, 0.9,
+    `\\begin{aligned}& ${BLOCKS}\\,x = y \\\\ \\mathbf{M} &= \\begin{bmatrix} aaaa & 0 \\\\ 0 & bbbb \\end{bmatrix} \\\\ \\mathbf{A} &= \\begin{bmatrix} cccc & eeee \\end{bmatrix}\\end{aligned}`],
   ["a formula without rows", "aaaa + bbbb", 0.6, "\\begin{aligned}& aaaa  \\\\[0.2em] & \\qquad {}+ bbbb\\end{aligned}"],
 ];
 
@@ -83,6 +91,14 @@ test("a matrix without a name, or of short entries, is one thing", () => {
   assert.equal(squeezed(broken(matrix, 0.2)), squeezed(matrix));
   const nameless = "\\begin{aligned}m &= \\begin{bmatrix} aaaa + bbbb & c \\\\ c & d \\end{bmatrix}\\end{aligned}";
   assert.equal(squeezed(broken(nameless, 0.2)), squeezed(nameless));
+});
+
+test("a fraction of fractions is as large in a matrix as outside of it, and others as small as they were", () => {
+  const column = (/** @type {string} */ entry) => `\\begin{bmatrix} ${entry} \\\\ 0 \\end{bmatrix}`;
+  assert.match(airy(column("\\frac{\\frac{a}{b} - c}{d}")), /\\dfrac\{\\frac\{a\}\{b\} - c\}\{d\}/);
+  assert.match(airy(column("\\frac{a}{b}")), /\\frac\{a\}\{b\}/);
+  assert.ok(sizeOf(column("\\frac{\\frac{a}{b} - c}{d}")).height > sizeOf(column("\\frac{a - c}{d}")).height);
+  katex.renderToString(airy(column("\\frac{\\frac{a}{b} - c}{d}")));
 });
 
 test("weight counts what is seen", () => {
