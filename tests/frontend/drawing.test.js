@@ -93,6 +93,19 @@ test("a ring stands where an event ends the motion, at the place that the scene 
   assert.deepEqual([ring("other"), ring(undefined)], [undefined, undefined]);
 });
 
+test("what stands in one frame stands in all, and what hangs hangs", () => {
+  const elements = [{ kind: "ground", at: "pivot" }, { kind: "pivot", at: "pivot" }];
+  for (const [view, stands] of /** @type {const} */ ([[[-2, 2, -0.5, 2], false], [[-2, 2, -2, 0.5], true]]))
+    for (const size of [square(400), { width: 400, height: 1000 }, { width: 1200, height: 300 }]) {
+      const given = /** @type {any} */ ({ ...scene, drawing: { ...scene.drawing, view, elements } });
+      const made = stageOf(given, trajectory, size);
+      const { shapes } = figureOf(made, snapshotAt(trajectory, 0));
+      const [, , y] = /** @type {RegExpMatchArray} */ (shapes.find(({ key }) => key === "ground0-line")?.d.match(/^M([-\d.]+) ([-\d.]+)/)).map(Number);
+      const { pivot } = trajectory.positions;
+      assert.equal(y > made.project(pivot?.[0] ?? [0, 0])[1], stands, JSON.stringify([view, size]));
+    }
+});
+
 test("bob above rod above ground, whatever the order in the scene", () => {
   const keys = figureAt(1).shapes.map((s) => s.key);
   assert.ok(keys.indexOf("ground4-line") < keys.indexOf("rod1") && keys.indexOf("rod1") < keys.indexOf("bob0"));

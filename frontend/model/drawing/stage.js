@@ -17,6 +17,7 @@ import { FRONT, viewBy } from "./camera.js";
  * @property {Size} size
  * @property {number} unit  the size of small things (bob, arrow head, coil) in pixels
  * @property {number} scale  pixels per metre
+ * @property {number} lower  pixels from the top to the lower part of what is shown: whatever the shape of the frame, it is the same part
  * @property {number} rem  the size of the page's letters in pixels
  * @property {readonly import("../types.js").Box[]} reserved  where other things lie on the drawing
  * @property {Pixel} down  unit vector of gravity's usual direction on the screen
@@ -35,6 +36,8 @@ const STEPS = 8;
 const REACH = 2;
 /** Metres that a motion is said to be large where it is at rest. */
 const LEAST = 0.5;
+/** The lower part of what is shown begins at this part of it. */
+const LOWER = 0.6;
 /** Bodies have a size: part of the smaller side that they take about their place. */
 const BODY = 0.035;
 
@@ -170,7 +173,9 @@ function clearOf(reserved, [x0, x1, y0, y1], trajectory, size, sign) {
  */
 export function stageOf(scene, trajectory, size, { rem = 16, reserved = [], camera = FRONT } = {}) {
   const sign = growsUp(scene) ? -1 : 1;
-  const { scale, origin } = clearOf(reserved, viewOf(scene, trajectory), trajectory, size, sign);
+  const view = viewOf(scene, trajectory);
+  const { scale, origin } = clearOf(reserved, view, trajectory, size, sign);
+  const [top, bottom] = [view[2], view[3]].map((y) => origin[1] + sign * scale * y).sort((one, other) => one - other);
   const seen = viewBy(camera, growsUp(scene));
   /** @param {readonly number[]} vector @returns {Pixel} */
   const direct = (vector) => {
@@ -183,7 +188,8 @@ export function stageOf(scene, trajectory, size, { rem = 16, reserved = [], came
     return [origin[0] + x * scale, origin[1] + sign * y * scale];
   };
   const unit = Math.max(8, Math.min(48, Math.min(size.width, size.height) / 30));
-  return { scene, trajectory, size, unit, scale, rem, reserved, down: [0, 1], project, direct, once: keeper() };
+  const lower = top + LOWER * (bottom - top);
+  return { scene, trajectory, size, unit, scale, lower, rem, reserved, down: [0, 1], project, direct, once: keeper() };
 }
 
 /** Makes each thing when it is first asked for, and keeps it. @returns {Stage["once"]} */

@@ -13,7 +13,7 @@ import { marked, placeOf, sizeOf, unlessMoved } from "./stage.js";
 /** @typedef {import("../types.js").Snapshot} Snapshot */
 
 /**
- * Hatched ground. In the lower half of the frame things stand on it, else they hang from it; where a pivot sits
+ * Hatched ground. In the lower part of what is shown things stand on it, else they hang from it; where a pivot sits
  * at the same place it leaves room for the pivot's triangle.
  * @param {Element} element @param {Stage} stage @param {Snapshot} now @param {string} key
  * @returns {Figure}
@@ -25,7 +25,7 @@ export function ground(element, stage, now, key) {
 
 /** @param {Pixel} place @param {Element} element @param {Stage} stage @param {string} key @returns {Figure} */
 function groundAt(place, element, stage, key) {
-  const below = place[1] > stage.size.height * 0.6;
+  const below = place[1] > stage.lower;
   const half = (sizeOf(element.width, stage) * stage.scale) / 2 || stage.unit * 3;
   const away = /** @type {Pixel} */ ([0, below ? 1 : -1]);
   const base = holdsPivot(element, stage) ? add(place, scaled(away, triangleHeight(stage))) : place;
@@ -86,7 +86,7 @@ const triangleHeight = (stage) => stage.unit * 1.9;
  */
 export function pivot(element, stage, now, key) {
   const place = placeOf(stage, now, element.at ?? "");
-  const height = triangleHeight(stage) * (place[1] > stage.size.height * 0.6 ? 1 : -1);
+  const height = triangleHeight(stage) * (place[1] > stage.lower ? 1 : -1);
   const fixed = (stage.scene.drawing?.elements ?? []).some(
     (other) => other.kind === "ground" && other.at === element.at,
   );
