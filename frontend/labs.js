@@ -18,6 +18,7 @@ import {
 import { resultOf } from "./model/labs/results.js";
 import { experiment, file } from "./model/labs/stream.js";
 import { createWatch, motionOf, written } from "./model/labs/watch.js";
+import { significant } from "./model/numbers.js";
 import { asTyped, completed, documentIn, fragmentOf, OWN, readDraft } from "./model/own.js";
 import { writeChanges } from "./model/values.js";
 import { createStore, mover } from "./model/store.js";
@@ -123,8 +124,8 @@ function watch(wish, address = "") {
   if (!scene) return;
   const { method, step = 0 } = wish;
   const title = method
-    ? speech()("labs.played-method", { method: methodTitle(method), step: step.toPrecision(3) })
-    : speech()("labs.played-point", { values: written(wish) });
+    ? speech()("labs.played-method", { method: methodTitle(method), step: significant(step, 3, lang()) })
+    : speech()("labs.played-point", { values: written(wish, lang()) });
   const told = (/** @type {string} */ status) => set({ play: { title, status, address } });
   void watching.ask(
     motionOf(question, wish, documentOf(question.scene), lang()),

@@ -27,6 +27,19 @@ export function fixed(value, decimals, lang) {
   return text.replace(/^-/, /[1-9]/.test(text) ? "−" : "");
 }
 
+/** As many of so many digits as it has, with a true minus sign. @param {number} value @param {number} digits @param {string} lang */
+export const brief = (value, digits, lang) =>
+  value.toLocaleString(lang, { maximumSignificantDigits: digits, useGrouping: false }).replace(/^-/, "−");
+
+/** A number as it stands in a field: its shortest digits, as somebody would type them. @param {number} value @param {string} lang */
+export const numberText = (value, lang) => String(value).replace(".", MARK[lang] ?? ".");
+
+/** A number that somebody typed, with a comma or a point; NaN where it is none. @param {string} text */
+export function numberIn(text) {
+  const plain = text.trim().replace(/^[−–]/, "-").replace(",", ".");
+  return plain && Number.isFinite(Number(plain)) ? Number(plain) : NaN;
+}
+
 /**
  * Significant digits; scientific outside 10⁻³ … 10⁵.
  * @param {number} value @param {number} digits @param {string} lang

@@ -1,6 +1,6 @@
 /** The adjustable numbers of a scene: parameters and initial values, as sliders. */
 
-import { decimalsOf, niceFloor, perSecond } from "./numbers.js";
+import { brief, decimalsOf, niceFloor, perSecond } from "./numbers.js";
 
 /** @typedef {import("./types.js").Scene} Scene */
 /** @typedef {import("./types.js").Changes} Changes */
@@ -98,7 +98,7 @@ export const heldAt = ({ least, most }, value) => Math.max(least, Math.min(most,
 
 /** What the scene allows, as one reads it: 0.2 … 2, or ≥ 0.2. @param {Slider} slider @param {string} lang */
 export function rangeText({ least, most }, lang) {
-  const [low, high] = [least, most].map((bound) => bound.toLocaleString(lang, { maximumSignificantDigits: 6 }));
+  const [low, high] = [least, most].map((bound) => brief(bound, 6, lang));
   return Number.isFinite(least) ? (Number.isFinite(most) ? `${low} … ${high}` : `≥ ${low}`) : `≤ ${high}`;
 }
 

@@ -5,7 +5,7 @@ import { live } from "lit-html/directives/live.js";
 import { prose } from "./formula.js";
 import { icon } from "./icons.js";
 import { indeterminateIn } from "../model/indeterminate.js";
-import { duration, fixed, significant } from "../model/numbers.js";
+import { duration, fixed, numberText, significant } from "../model/numbers.js";
 import { caveatsOf, largestError } from "../model/trajectory.js";
 
 /** @typedef {import("./page.js").View} View */
@@ -20,7 +20,7 @@ export function report(view) {
 /** @param {View} view */
 function numerics({ state, session, t, methodTitle }) {
   const chosen = (/** @type {Event} */ e) => /** @type {HTMLSelectElement} */ (e.target).value;
-  const { method, duration: seconds } = state.place;
+  const { lang, method, duration: seconds } = state.place;
   const durations = [...new Set([...DURATIONS, seconds])].sort((a, b) => a - b);
   return html`
     <div class="numerics" role="group" aria-label=${t("numerics")}>
@@ -31,7 +31,7 @@ function numerics({ state, session, t, methodTitle }) {
         </select>${icon("chevron")}</label>
       <label class="choice" title=${t("numerics.duration")}><span class="unseen">${t("numerics.duration")}</span>
         <select .value=${live(String(seconds))} @change=${(/** @type {Event} */ e) => session.resimulate({ duration: Number(chosen(e)) })}>
-          ${durations.map((d) => html`<option value=${d} ?selected=${d === seconds}>${d} s</option>`)}
+          ${durations.map((d) => html`<option value=${d} ?selected=${d === seconds}>${numberText(d, lang)} s</option>`)}
         </select>${icon("chevron")}</label>
     </div>
   `;

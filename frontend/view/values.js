@@ -3,9 +3,9 @@
 import { html, nothing } from "lit-html";
 import { live } from "lit-html/directives/live.js";
 import { inline } from "./formula.js";
-import { settled } from "./settled.js";
+import { numberField } from "./number-field.js";
 import { heldAt, isChanged, rangeText, slidersOf } from "../model/values.js";
-import { unitText, withUnit } from "../model/numbers.js";
+import { brief, fixed, unitText, withUnit } from "../model/numbers.js";
 
 /** @typedef {import("./page.js").View} View */
 /** @typedef {import("../model/values.js").Slider} Slider */
@@ -32,14 +32,17 @@ export function values(view) {
 
 /** How many members a chain has: another number is another scene. @param {import("../model/types.js").Family} family @param {View} view */
 function size({ parameter, min, max, value }, { state, session, t }) {
-  const chosen = (/** @type {Event} */ e) =>
-    void session.choose(state.place.scene, "", Number(/** @type {HTMLInputElement} */ (e.target).value));
+  const choose = (/** @type {number} */ asked) => {
+    const count = Math.max(min, Math.min(max, Math.round(asked)));
+    void session.choose(state.place.scene, "", count);
+    return count;
+  };
   return html`
     <div class="row" data-slider="size">
       <span class="symbol">${inline(parameter)}</span>
       <input type="range" aria-label=${t("values.parameter", { name: parameter })} min=${min} max=${max} step="1"
-        style="--filled:${(value - min) / (max - min)}" .value=${live(String(value))} @change=${chosen}>
-      <input type="number" aria-label=${parameter} min=${min} max=${max} .value=${settled(String(value))} @change=${chosen}>
+        style="--filled:${(value - min) / (max - min)}" .value=${live(String(value))} @change=${(/** @type {Event} */ e) => choose(Number(/** @type {HTMLInputElement} */ (e.target).value))}>
+      ${numberField({ value, lang: state.place.lang, label: parameter, least: min, put: choose })}
       <span class="unit"></span>
     </div>
   `;
@@ -51,37 +54,32 @@ function row(slider, { state, session, t }) {
     slider.group === "parameter" ? "values.parameter" : slider.field === "rate" ? "values.rate" : "values.value";
   const label = t(kind, { name: slider.name });
   const filled = Math.max(0, Math.min(1, (slider.value - slider.min) / (slider.max - slider.min || 1)));
-  const bound = (/** @type {number} */ number) => (Number.isFinite(number) ? number : nothing);
   const moved = (/** @type {Event} */ e) =>
     session.slide(slider, Number(/** @type {HTMLInputElement} */ (e.target).value));
-  const typed = (/** @type {Event} */ e) => {
-    const field = /** @type {HTMLInputElement} */ (e.target);
-    const asked = field.valueAsNumber;
+  const typed = (/** @type {number} */ asked) => {
     session.slide(slider, asked);
-    field.value = textOf(slider, Number.isFinite(asked) ? heldAt(slider, asked) : slider.value);
+    return shown(slider, heldAt(slider, asked));
   };
+  const { lang } = state.place;
   const hint = hintOf(slider, state, t);
   return html`
     <div class="row ${slider.className}" data-slider=${slider.key}>
       <span class="symbol" title=${label}>${inline(slider.latex)}</span>
       <input type="range" aria-label=${label} min=${slider.min} max=${slider.max} step=${slider.step}
-        style="--filled:${filled}" .value=${live(String(slider.value))} @input=${moved}>
-      <input type="number" aria-label=${withUnit(label, slider.unit)} min=${bound(slider.least)} max=${bound(slider.most)} step="any"
-        style="--digits:${textOf(slider, slider.value).length}"
-        aria-describedby=${hint ? `hint-${slider.key}` : nothing} .value=${settled(textOf(slider, slider.value))} @change=${typed}>
+        aria-valuetext=${`${fixed(slider.value, slider.decimals, lang)} ${unitText(slider.unit)}`.trim()} style="--filled:${filled}" .value=${live(String(slider.value))} @input=${moved}>
+      ${numberField({ value: shown(slider, slider.value), lang, put: typed, label: withUnit(label, slider.unit), hint: hint && `hint-${slider.key}`, step: slider.step, least: slider.least })}
       <span class="unit">${unitText(slider.unit)}</span>
       <span class="hint" id=${`hint-${slider.key}`} role="status">${hint}</span>
     </div>
   `;
 }
 
-/** @param {Slider} slider @param {number} value */
-const textOf = ({ decimals }, value) => String(Number(value.toFixed(Math.max(decimals, 2))));
+/** As many digits as there is room for. @param {Slider} slider @param {number} value */
+const shown = ({ decimals }, value) => Number(value.toFixed(Math.max(decimals, 2)));
 
 /** A number beyond what the scene allows: typed, it is held; given by a link, it is taken as it is. Either is told. @param {Slider} slider @param {View["state"]} state @param {View["t"]} t */
 function hintOf(slider, { held, place: { lang } }, t) {
   const range = rangeText(slider, lang);
-  if (held?.key === slider.key)
-    return t("values.held", { asked: held.asked.toLocaleString(lang, { maximumSignificantDigits: 6 }), range });
+  if (held?.key === slider.key) return t("values.held", { asked: brief(held.asked, 6, lang), range });
   return heldAt(slider, slider.value) === slider.value ? "" : t("values.outside", { range });
 }

@@ -137,7 +137,7 @@ INERTIA = "/bodies/0/inertia"
         ),
         pytest.param(
             [["A", "D", "0"], ["D", "B", "0"], ["0", "0", "-C"]],
-            Problem("inertia-not-positive", INERTIA, parameters={"name": "body", "value": "-2"}),
+            Problem("inertia-not-positive", INERTIA, parameters={"name": "body", "value": -2.0}),
             id="a negative moment",
         ),
         pytest.param(

@@ -290,7 +290,7 @@ def test_the_motion_is_told_in_words_and_anew_when_it_changes(lecture: Lecture) 
     expect(told).to_contain_text("phi swings between")
     expect(told).to_contain_text("the energy stays the same")
     before = told.text_content() or ""
-    slider = lecture.page.locator("[data-slider=parameter-l-value] input[type=number]")
+    slider = lecture.page.locator("[data-slider=parameter-l-value] .decimal")
     slider.fill("0.5")
     slider.press("Tab")
     expect(told).not_to_have_text(before)

@@ -95,11 +95,11 @@ def test_the_bob_is_dragged_to_where_the_motion_begins(lecture: Lecture) -> None
     expect(page).to_have_url(re.compile(r"set=y:[-.\d]+:0%2Cphi:-?[.\d]+:0"))
     page.wait_for_timeout(400)
     assert lecture.bob_position() == pytest.approx(aim, abs=1.5)
-    slider = page.locator("[data-slider=initial-phi-value] input[type=number]").input_value()
+    slider = page.locator("[data-slider=initial-phi-value] .decimal").input_value()
     page.reload()
     lecture.bob.wait_for(state="attached")
     until_equal(page, lecture.bob_position, pytest.approx(aim, abs=1.5))
-    expect(page.locator("[data-slider=initial-phi-value] input[type=number]")).to_have_value(slider)
+    expect(page.locator("[data-slider=initial-phi-value] .decimal")).to_have_value(slider)
 
 
 def test_a_place_is_moved_with_keys(lecture: Lecture) -> None:
@@ -132,7 +132,7 @@ def test_runs_are_compared(lecture: Lecture) -> None:
     page = open_at_rest(lecture, "?scene=pendulum&lang=en")
     page.locator(".plots.ready").wait_for()
     keep = page.locator(".figure-tools").get_by_role("button", name="Keep this motion")
-    length = page.locator("[data-slider=parameter-l-value] input[type=number]")
+    length = page.locator("[data-slider=parameter-l-value] .decimal")
     for value in ("0.5", "1.5"):
         keep.click()
         length.fill(value)
@@ -259,10 +259,10 @@ def test_a_number_beyond_the_range_of_the_scene_is_told(lecture: Lecture) -> Non
     lecture.open("?scene=elastic-pendulum&lang=en&set=l:3")
     length = lecture.page.locator("[data-slider=parameter-l-value]")
     expect(length.locator(".hint")).to_have_text("Outside of 0.2 … 2.")
-    length.locator("input[type=number]").fill("7")
-    length.locator("input[type=number]").press("Enter")
+    length.locator(".decimal").fill("7")
+    length.locator(".decimal").press("Enter")
     expect(length.locator(".hint")).to_have_text("7 is out of range: 0.2 … 2.")
-    expect(length.locator("input[type=number]")).to_have_value("2")
-    length.locator("input[type=number]").fill("1.5")
-    length.locator("input[type=number]").press("Enter")
+    expect(length.locator(".decimal")).to_have_value("2")
+    length.locator(".decimal").fill("1.5")
+    length.locator(".decimal").press("Enter")
     expect(length.locator(".hint")).to_have_text("")

@@ -47,7 +47,7 @@ def test_the_address_leads_back_and_has_a_code(shared: Lecture) -> None:
 def test_files_hold_what_is_shown(lecture: Lecture, name: str, file: str, holds: str) -> None:
     page = lecture.page
     lecture.open("?scene=elastic-pendulum&lang=en")
-    force = page.locator("[data-slider=parameter-F0-value] input[type=number]")
+    force = page.locator("[data-slider=parameter-F0-value] .decimal")
     force.fill("3")
     force.press("Tab")
     page.get_by_role("button", name="Share and take away").click()

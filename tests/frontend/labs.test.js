@@ -164,7 +164,9 @@ test("what is watched keeps the question's values unless it has its own", () => 
   const watched = motionOf(ASKED, { method: "rk4", step: 0.1, t_end: 2 }, "kapitza", "en");
   assert.deepEqual([watched.parameters, watched.step, watched.t_end], [{ l: 0.4 }, 0.1, 2]);
   assert.deepEqual(motionOf(ASKED, { parameters: { l: 1 } }, "kapitza", "en").parameters, { l: 1 });
-  assert.equal(written({ parameters: { l: 0.123456 }, initial: { phi: { value: 1 } } }), "l = 0.1235, phi = 1");
+  const point = { parameters: { l: 0.123456 }, initial: { phi: { value: 1 } } };
+  assert.equal(written(point, "en"), "l = 0.1235; phi = 1");
+  assert.equal(written(point, "de"), "l = 0,1235; phi = 1");
 });
 
 test("what is pointed at last is played, however late what was pointed at before comes", async () => {

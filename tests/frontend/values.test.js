@@ -93,7 +93,7 @@ test("what is typed outside of the scene's bounds is held there; what is no numb
   assert.equal(changed(scene, UNCHANGED, sliderOf("parameter-m-value"), NaN), UNCHANGED);
 });
 
-for (const [bounds, lang, text] of /** @type {const} */ ([[[0.2, 2], "de", "0,2 … 2"], [[0.2, Infinity], "en", "≥ 0.2"], [[-Infinity, 1500], "de", "≤ 1.500"], [[1 / 7, 2 / 3], "en", "0.142857 … 0.666667"]]))
+for (const [bounds, lang, text] of /** @type {const} */ ([[[0.2, 2], "de", "0,2 … 2"], [[0.2, Infinity], "en", "≥ 0.2"], [[-Infinity, 1500], "de", "≤ 1500"], [[1 / 7, 2 / 3], "en", "0.142857 … 0.666667"]]))
   test(`the range is told as ${text}`, () => assert.equal(rangeText({ ...sliderOf("parameter-m-value"), least: bounds[0], most: bounds[1] }, lang), text));
 
 const DOTS = [["q_1", "\\dot{q}_1"], ["\\varphi", "\\dot{\\varphi}"], ["x", "\\dot{x}"], ["q_{12}", "\\dot{q}_{12}"], ["x'", "\\dot{x'}"], ["\\hat{q}_1", "\\dot{\\hat{q}_1}"], ["AB_2", "\\dot{AB}_2"], ["q^2_1", "\\dot{q^2_1}"]];

@@ -119,7 +119,7 @@ WRONG = [
         [rod(end="pivot")], (Problem("distance-of-itself", "/constraints/0/to", parameters={"name": "pivot"}),)
     ),
     pytest.param(
-        [rod(length="l - l")], (Problem("length-not-positive", "/constraints/0/length", parameters={"value": "0"}),)
+        [rod(length="l - l")], (Problem("length-not-positive", "/constraints/0/length", parameters={"value": 0.0}),)
     ),
     pytest.param(
         [rod(length="l + dot(x)*l/c")],

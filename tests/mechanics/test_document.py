@@ -221,11 +221,11 @@ WRONG = [
             ({"then": "end"}, Problem("restitution-without-bounce", "/events/0/restitution")),
             (
                 {"restitution": "3/2"},
-                Problem("restitution-outside", "/events/0/restitution", parameters={"value": "1.5"}),
+                Problem("restitution-outside", "/events/0/restitution", parameters={"value": 1.5}),
             ),
             (
                 {"restitution": "-m"},
-                Problem("restitution-outside", "/events/0/restitution", parameters={"value": "-1"}),
+                Problem("restitution-outside", "/events/0/restitution", parameters={"value": -1.0}),
             ),
             (
                 {"restitution": "phi"},

@@ -95,7 +95,7 @@ FIXED = [
     pytest.param(laws("x = l", "y = 0*l", "x + y = l"), many(1, 3, 2), id="one law follows"),
     pytest.param(
         laws("x = l", "y = 0*l", "x + y = 3*l"),
-        Problem("constraint-not-met", "/constraints/2", parameters={"gap": "2"}),
+        Problem("constraint-not-met", "/constraints/2", parameters={"gap": 2.0}),
         id="one law contradicts",
     ),
     pytest.param(
@@ -125,7 +125,7 @@ def test_what_leaves_nothing_is_refused_for_what_it_is(held: Document, problem: 
         (3, equation("stop", "y = -0.8*l"), many(2, 4, 3)),
         (4, equation("stop", "y = -0.8*l"), many(2, 5, 3)),
         (2, equation("stop", "p = 0.1"), many(2, 3, 3)),  # the rods crossed
-        (3, equation("stop", "p = 0.1"), Problem("constraint-not-met", "/constraints/3", parameters={"gap": "0.1"})),
+        (3, equation("stop", "p = 0.1"), Problem("constraint-not-met", "/constraints/3", parameters={"gap": 0.1})),
         (
             3,
             rod("twin", "above0", "end0"),

@@ -138,12 +138,12 @@ CASES = [
     ),
     pytest.param(
         {"bodies": bob("x + l*sin(phi)", "l*cos(phi)", mass="m - 2*m")},
-        (Problem("mass-not-positive", "/bodies/0/mass", parameters={"name": "bob", "value": "-1"}),),
+        (Problem("mass-not-positive", "/bodies/0/mass", parameters={"name": "bob", "value": -1.0}),),
         id="negative mass",
     ),
     pytest.param(
         {"bodies": rigid("-m*l^2")},
-        (Problem("inertia-not-positive", "/bodies/0/inertia", parameters={"name": "bob", "value": "-1"}),),
+        (Problem("inertia-not-positive", "/bodies/0/inertia", parameters={"name": "bob", "value": -1.0}),),
         id="negative inertia",
     ),
     *(
@@ -157,7 +157,7 @@ CASES = [
     ),
     pytest.param(
         {"bodies": rod("m/l*(1 - 2*s/l)")},
-        (Problem("density-not-positive", "/bodies/0/density", parameters={"name": "rod", "value": "-0.774597"}),),
+        (Problem("density-not-positive", "/bodies/0/density", parameters={"name": "rod", "value": -0.774597}),),
         id="density that becomes negative",
     ),
     pytest.param(
@@ -203,7 +203,7 @@ CASES = [
     ),
     pytest.param(
         {"bodies": rod("m/l", "l", "0")},
-        (Problem("empty-material", "/bodies/0/material/0/to", parameters={"name": "s", "min": "1", "max": "0"}),),
+        (Problem("empty-material", "/bodies/0/material/0/to", parameters={"name": "s", "min": 1.0, "max": 0.0}),),
         id="material bounds the wrong way round",
     ),
     pytest.param(

@@ -187,6 +187,17 @@ def test_message_with_a_suggestion() -> None:
     assert message("de", problem) == "Es gibt keinen Punkt oder Körper „bop“. Meinten Sie „bob“?"
 
 
+@pytest.mark.parametrize(("language", "told"), [("de", "0,25"), ("en", "0.25")])
+def test_a_number_in_a_sentence_has_the_mark_of_its_language(language: str, told: str) -> None:
+    for code, parameters in (
+        ("restitution-outside", {"value": 0.25}),
+        ("constraint-not-met", {"gap": 0.25}),
+        ("friction-negative", {"name": "0.5*m", "value": 0.25}),
+    ):
+        assert told in message(language, Problem(code, parameters=parameters))
+    assert "0.5*m" in message(language, Problem("friction-negative", parameters={"name": "0.5*m", "value": 1.0}))
+
+
 @pytest.mark.parametrize(
     ("wanted", "language"),
     [("de", "de"), ("de-CH", "de"), ("en-GB", "en"), ("fr", "en"), ("", "en"), (None, "en")],

@@ -45,8 +45,8 @@ def _feedback(student: Document, tasks: Iterable[Document], language: str) -> st
             language,
             "homework.platforms.task",
             task="".join(f"\\({one.text}\\)" if one.is_formula else one.text for one in pieces(task["title"])),
-            points=f"{answer['points'] if answer else 0.0:.4g}",
-            of=f"{task['of']:.4g}",
+            points=float(f"{answer['points'] if answer else 0.0:.4g}"),
+            of=float(f"{task['of']:.4g}"),
         )
         for answer, task in zip(student["answers"], tasks, strict=True)
     )

@@ -53,4 +53,6 @@ def _lengths(scene: Scene) -> Iterator[Problem]:
     start = scene.stated_values
     for index, constraint in enumerate(scene.constraints):
         if isinstance(constraint, DistanceConstraint) and (length := evaluate(constraint.length.tree, start)) <= 0:
-            yield Problem("length-not-positive", f"/constraints/{index}/length", parameters={"value": f"{length:g}"})
+            yield Problem(
+                "length-not-positive", f"/constraints/{index}/length", parameters={"value": float(f"{length:g}")}
+            )

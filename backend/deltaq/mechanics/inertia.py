@@ -11,7 +11,7 @@ import math
 import random
 from collections.abc import Iterator
 
-from ..errors import Problem
+from ..errors import Parameter, Problem
 from ..language.expression import Expression, expressions_in
 from ..language.floats import evaluate
 from ..language.tree import Node
@@ -105,7 +105,11 @@ def _light_continuum(
     for number, each in enumerate(material):
         lower, upper = evaluate(each.lower.tree, values), evaluate(each.upper.tree, values)
         if not lower < upper:
-            parameters = {"name": each.name, "min": f"{lower:g}", "max": f"{upper:g}"}
+            parameters: dict[str, Parameter] = {
+                "name": each.name,
+                "min": float(f"{lower:g}"),
+                "max": float(f"{upper:g}"),
+            }
             yield Problem("empty-material", f"/bodies/{index}/material/{number}/to", parameters=parameters)
             return
     densities = [value for _, inside in nodes(material, values) if math.isfinite(value := evaluate(density, inside))]
@@ -114,7 +118,7 @@ def _light_continuum(
 
 def _not_positive(key: str, index: int, body: Body, value: float) -> Iterator[Problem]:
     if not value > 0:
-        parameters = {"name": body.name, "value": f"{value:g}"}
+        parameters: dict[str, Parameter] = {"name": body.name, "value": float(f"{value:g}")}
         yield Problem(f"{key}-not-positive", f"/bodies/{index}/{key}", parameters=parameters)
 
 

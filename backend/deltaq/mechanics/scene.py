@@ -97,7 +97,7 @@ class Scene:
             return
         value = evaluate(event.restitution.tree, self.parameter_values)
         if not 0.0 <= value <= 1.0:
-            yield Problem("restitution-outside", pointer, parameters={"value": f"{value:g}"})
+            yield Problem("restitution-outside", pointer, parameters={"value": float(f"{value:g}")})
 
     def _guide_problems(self, pointer: str, guide: Guide) -> Iterator[Problem]:
         known = tuple(coordinate.name for coordinate in self.coordinates)
@@ -140,7 +140,7 @@ class Scene:
             return
         free, names = ([coordinate.name for coordinate in each] for each in (self.free, self.coordinates))
         told = tuple(dependence_problems(self.conditions, free, random_points(self.start, names)))
-        gap = {"gap": f"{self.independence.gap:.3g}"}
+        gap = {"gap": float(f"{self.independence.gap:.3g}")}
         yield from told or (Problem("constraint-not-met", f"/constraints/{unmet}", parameters=gap),)
 
     @cached_property

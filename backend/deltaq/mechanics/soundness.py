@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass, fields
 
-from ..errors import Problem
+from ..errors import Parameter, Problem
 from ..language.expression import Expression
 from ..language.floats import evaluate
 from ..language.spelling import spell_rate
@@ -69,7 +69,10 @@ def _negative_friction(scene: Scene) -> Iterator[Problem]:
         for part in (part for part in (load.contributions(scene.places, scene.bodies)) if isinstance(part, Friction)):
             for key, tree in (("force", part.force), ("static", part.static)):
                 if evaluate(tree, values) < 0.0:
-                    parameters = {"name": load.name, "value": f"{evaluate(tree, values):g}"}
+                    parameters: dict[str, Parameter] = {
+                        "name": load.name,
+                        "value": float(f"{evaluate(tree, values):g}"),
+                    }
                     yield Problem("friction-negative", f"/loads/{index}/{key}", parameters=parameters)
                     break
 

@@ -50,9 +50,14 @@ def _entry(language: str, key: str) -> object | None:
 
 
 def text(language: str, key: str, **parameters: object) -> CatalogText:
-    """The sentence under a key, its {placeholders} put in; where {count} is 1, the one under `KEY-one`, if there is."""
+    """The sentence under a key, its {placeholders} put in; where {count} is 1, the one under `KEY-one`, if there is.
+
+    Floats have the decimal mark of the language: a sentence says them, and nobody has typed them.
+    """
     is_one = str(parameters.get("count")) == "1" and _entry(language, f"{key}-one") is not None
-    return filled(template(language, f"{key}-one" if is_one else key), parameters)
+    mark = template(language, "rules.decimal")
+    told = {name: _told(value, mark) if isinstance(value, float) else value for name, value in parameters.items()}
+    return filled(template(language, f"{key}-one" if is_one else key), told)
 
 
 def with_decimal_mark(language: str, latex: str) -> str:
@@ -72,20 +77,15 @@ def keys(language: str, key: str) -> tuple[str, ...]:
 def filled(template: str, parameters: Mapping[str, object]) -> CatalogText:
     """The template with its {placeholders} put in, as words unless they are sentences or formulas of δq themselves."""
     pieces = (
-        literal + ("" if field is None else words(_typed(parameters.get(field, ""))))
+        literal + ("" if field is None else words(parameters.get(field, "")))
         for literal, field, _, _ in Formatter().parse(template)
     )
     return CatalogText("".join(pieces))
 
 
-def number_told(value: float, language: str) -> str:
-    """A number in a sentence, with the decimal mark of the language: 0,5 in German."""
-    return str(_typed(value)).replace(".", template(language, "rules.decimal"))
-
-
-def _typed(value: object) -> object:
-    """A number as one types it: 0 for 0.0, and 1e-6 for 1e-06."""
-    return re.sub(r"e([+-])0*", r"e\1", repr(value).removesuffix(".0")) if isinstance(value, float) else value
+def _told(value: float, mark: str) -> str:
+    """A number in a sentence: 0 for 0.0, 1e-6 for 1e-06, and with the decimal mark of the language, 0,5 in German."""
+    return re.sub(r"e([+-])0*", r"e\1", repr(value).removesuffix(".0")).replace(".", mark)
 
 
 def sentence(language: str, problem: Problem) -> CatalogText:

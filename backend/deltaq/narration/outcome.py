@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from ..vocabulary import OWN_REASONS, Missing, OptionalPart
-from .catalog import number_told, text
+from .catalog import text
 from .prose import plain
 
 Document = dict[str, Any]
@@ -14,15 +14,12 @@ Document = dict[str, Any]
 def explained(answer: Document, language: str) -> Document:
     """`reason`, `remedy`, the event and why the method was chosen in words, from what the simulation gave."""
     code, parameters, event = answer["reason"]["code"], answer["reason"]["parameters"], answer["event"]
-    parameters = _numbers_told(parameters, language)
     if event:
         event = {**event, "title": event["title"].get(language) or event["name"]}
         parameters = {**parameters, "title": event["title"]}
     told = {part: plain(text(language, f"statuses.{code}.{part}", **parameters)) for part in ("reason", "remedy")}
     choice = answer["choice"]
-    why = choice and plain(
-        text(language, f"statuses.{choice['code']}.reason", **_numbers_told(choice["parameters"], language))
-    )
+    why = choice and plain(text(language, f"statuses.{choice['code']}.reason", **choice["parameters"]))
     return {**told, "choice": why, "event": event}
 
 
@@ -30,17 +27,9 @@ def outcomes_explained(outcomes: Document, language: str) -> Document:
     """`reasons`: for each status the sentences about it, of the first run that has it."""
     reasons = {}
     for status, (code, parameters) in outcomes.items():
-        numbers = _numbers_told(parameters, language)
-        told = (plain(text(language, f"statuses.{code}.{part}", **numbers)) for part in ("reason", "remedy"))
+        told = (plain(text(language, f"statuses.{code}.{part}", **parameters)) for part in ("reason", "remedy"))
         reasons[status] = " ".join(part for part in told if part)
     return {"reasons": reasons}
-
-
-def _numbers_told(parameters: Document, language: str) -> Document:
-    """Numbers with the decimal mark of the language: they were not typed by anybody."""
-    return {
-        name: number_told(value, language) if isinstance(value, float) else value for name, value in parameters.items()
-    }
 
 
 def missing(part: OptionalPart, reason: Missing, language: str) -> Document:

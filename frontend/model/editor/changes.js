@@ -1,6 +1,7 @@
 /** Changes of a scene document: each returns a new one, and what nobody touched stays as it was. */
 
 import { dimensionOf, fieldsOf, isList, memberOf, rowsOf, SECTIONS } from "./schema.js";
+import { numberIn } from "../numbers.js";
 import { tableOf } from "../own.js";
 
 /** @typedef {import("../own.js").SceneDocument} SceneDocument */
@@ -36,10 +37,9 @@ function put(node, [key, ...rest], value) {
 
 /** A number as typed; what is none stays text, and the server says so. @param {string} text */
 export function numberOf(text) {
-  const trimmed = text.trim();
-  if (!trimmed) return undefined;
-  const number = Number(trimmed.replace(",", "."));
-  return Number.isFinite(number) ? number : text;
+  if (!text.trim()) return undefined;
+  const number = numberIn(text);
+  return Number.isNaN(number) ? text : number;
 }
 
 /** @param {SceneDocument} document @param {string} key @param {object} row */

@@ -4,6 +4,7 @@ import { latestOnly } from "../latest.js";
 import { asTyped, OWN, tableOf } from "../own.js";
 import { createStore } from "../store.js";
 import { ApiError } from "../api.js";
+import { numberIn } from "../numbers.js";
 import { fragmentOfAssignment } from "./assignment.js";
 import { FIRST_SCENE } from "./place.js";
 import { groupOf } from "./sheet.js";
@@ -74,7 +75,7 @@ export function instantOf(local) {
 
 /** A number that was typed, between bounds; null where it is none. @param {string} text @param {number} low @param {number} high */
 export function bounded(text, low, high) {
-  const value = Number(text.trim().replace(",", ".") || Number.NaN);
+  const value = numberIn(text);
   return Number.isFinite(value) ? Math.min(high, Math.max(low, value)) : null;
 }
 

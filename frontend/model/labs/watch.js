@@ -1,6 +1,7 @@
 /** What a chart points at, as a motion to be simulated: a point of a map, or a method at the step where it fails. */
 
 import { newest } from "../latest.js";
+import { numberText } from "../numbers.js";
 import { sampled, samplesFor } from "../sampling.js";
 
 /** @typedef {import("./question.js").Question} Question */
@@ -31,12 +32,12 @@ export function motionOf({ parameters, initial }, wish, scene, lang) {
 /** @param {Wish} wish */
 const only = ({ parameters, initial }) => ({ ...(parameters ? { parameters } : {}), ...(initial ? { initial } : {}) });
 
-/** The values of a point, as a line of text. @param {Wish} wish */
-export function written({ parameters = {}, initial = {} }) {
+/** The values of a point, as a line of text. @param {Wish} wish @param {string} lang */
+export function written({ parameters = {}, initial = {} }, lang) {
   const starts = Object.entries(initial).map(([name, { value }]) => /** @type {const} */ ([name, value ?? 0]));
   return [...Object.entries(parameters), ...starts]
-    .map(([name, value]) => `${name} = ${Number(value.toPrecision(4))}`)
-    .join(", ");
+    .map(([name, value]) => `${name} = ${numberText(Number(value.toPrecision(4)), lang)}`)
+    .join("; ");
 }
 
 /**

@@ -2,6 +2,7 @@
 
 import { html, nothing } from "lit-html";
 import { inline } from "../formula.js";
+import { numberText } from "../../model/numbers.js";
 import {
   componentsOf,
   dimensionOf,
@@ -140,6 +141,9 @@ function material(sheet, pointer, row) {
     </div></div>`;
 }
 
+/** A number with the decimal mark of the reader's language; text that is none as it is. @param {unknown} value @param {string} lang */
+const inLocale = (value, lang) => (typeof value === "number" ? numberText(value, lang) : value);
+
 /** @param {Sheet} sheet @param {Row} at @param {Field} field */
 export function fieldOf(sheet, at, { key, type }) {
   const { section, index, row } = at;
@@ -158,7 +162,7 @@ export function fieldOf(sheet, at, { key, type }) {
   if (type === "expression") return expression(sheet, pointer, label, value, materialOf(row));
   if (type === "material") return material(sheet, pointer, row);
   if (type === "number")
-    return line(sheet, pointer, label, value, (text) => put(numberOf(text)), {
+    return line(sheet, pointer, label, inLocale(value, sheet.state.place.lang), (text) => put(numberOf(text)), {
       className: "narrow",
       mode: "decimal",
       standard: standardOf(section, key),

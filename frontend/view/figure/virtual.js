@@ -3,6 +3,7 @@
 import { html } from "lit-html";
 import { live } from "lit-html/directives/live.js";
 import { inline } from "../formula.js";
+import { numberField } from "../number-field.js";
 import { layerIn } from "./layer.js";
 import { called } from "../../model/catalog.js";
 import { placed } from "../../model/drawing/placing.js";
@@ -116,7 +117,7 @@ function panel({ state, session, t }, free, { delta, dt }, { choose, follow, loa
       <div class="heading"><h2>${t("virtual.frozen")}</h2>
         <button class="quiet small" @click=${() => session.move({ vary: "" })}>${t("virtual.close")}</button></div>
       ${free.map((each) =>
-        row({
+        row(lang, {
           className: `q-${index(each.name)}`,
           key: each.name,
           latex: `\\delta ${each.latex || each.name}`,
@@ -130,7 +131,7 @@ function panel({ state, session, t }, free, { delta, dt }, { choose, follow, loa
       )}
       <div class="heading"><h2>${t("virtual.running")}</h2>
         <button class="quiet small" title=${t("virtual.follow-help")} ?disabled=${!dt} @click=${follow}>${inline("\\delta q = \\dot q\\,\\mathrm dt")}</button></div>
-      ${row({ className: "time-term", key: "dt", latex: "\\mathrm dt", unit: "s", label: t("virtual.dt"), value: dt, reach: LONGEST, least: 0, set: (value) => choose({ delta, dt: value }) })}
+      ${row(lang, { className: "time-term", key: "dt", latex: "\\mathrm dt", unit: "s", label: t("virtual.dt"), value: dt, reach: LONGEST, least: 0, set: (value) => choose({ delta, dt: value }) })}
       <ul class="arrows">
         <li><span class="swatch virtual"></span>${inline("\\delta\\mathbf r")}<span>${t("virtual.variation")}</span></li>
         ${varied.length > 1 ? varied.map(({ name, latex }) => html`<li class=${`q-${index(name)}`}><span class="swatch"></span>${inline(`\\tfrac{\\partial\\mathbf r}{\\partial ${latex || name}}\\,\\delta ${latex || name}`)}<span>${t("virtual.part")}</span></li>`) : ""}
@@ -150,19 +151,22 @@ function panel({ state, session, t }, free, { delta, dt }, { choose, follow, loa
   `;
 }
 
-/** @param {{className: string, key: string, latex: string, unit: string, label: string, value: number, reach: number, least: number, set: (value: number) => void}} given */
-function row({ className, key, latex, unit, label, value, reach, least, set }) {
-  const changed = (/** @type {Event} */ e) => {
-    const asked = Number(/** @type {HTMLInputElement} */ (e.target).value);
-    if (Number.isFinite(asked)) set(Math.max(least, Math.min(reach, asked)));
+/** @param {string} lang @param {{className: string, key: string, latex: string, unit: string, label: string, value: number, reach: number, least: number, set: (value: number) => void}} given */
+function row(lang, { className, key, latex, unit, label, value, reach, least, set }) {
+  const put = (/** @type {number} */ asked) => {
+    const held = Math.max(least, Math.min(reach, asked));
+    set(held);
+    return held;
   };
+  const changed = (/** @type {Event} */ e) => put(Number(/** @type {HTMLInputElement} */ (e.target).value));
   const step = reach / 100;
+  const decimals = Math.max(2, decimalsOf(step));
   return html`
     <div class="row ${className}" data-slider=${`delta-${key}`}>
       <span class="symbol" title=${label}>${inline(latex)}</span>
       <input type="range" aria-label=${label} min=${least} max=${reach} step=${step} style="--filled:${(value - least) / (reach - least)}"
-        .value=${live(String(value))} @input=${changed}>
-      <input type="number" aria-label=${withUnit(label, unit)} step="any" .value=${live(String(Number(value.toFixed(Math.max(2, decimalsOf(step))))))} @change=${changed}>
+        aria-valuetext=${`${fixed(value, decimals, lang)} ${unitText(unit)}`.trim()} .value=${live(String(value))} @input=${changed}>
+      ${numberField({ value: Number(value.toFixed(decimals)), lang, put, label: withUnit(label, unit), step, least })}
       <span class="unit">${unitText(unit)}</span>
     </div>`;
 }

@@ -3,7 +3,7 @@
 import { html, nothing } from "lit-html";
 import { displayed, inline, prose } from "../formula.js";
 import { icon } from "../icons.js";
-import { significant } from "../../model/numbers.js";
+import { brief, significant } from "../../model/numbers.js";
 import { isCurrent } from "../../model/homework/answering.js";
 import { isOrdering } from "../../model/homework/ordering.js";
 import { isPlain } from "../../model/homework/sheet.js";
@@ -88,7 +88,7 @@ const partly = ({ state, t }, { outcome, share }) =>
 /** @param {HomeworkView} view @param {NonNullable<Verdict["counterexample"]>} found */
 function example({ state, t }, { values, latex = {}, of, yours, right, reference = {} }) {
   const { lang } = state.asked.place;
-  const given = (/** @type {number} */ value) => value.toLocaleString(lang, { maximumSignificantDigits: 4 });
+  const given = (/** @type {number} */ value) => brief(value, 4, lang);
   const number = (/** @type {number} */ value) => significant(value, 4, lang);
   const component = AXES[Number(of)];
   const what = component ? html`${inline(component)}: ` : latex[of] ? html`${inline(latex[of])} = ` : nothing;

@@ -10,7 +10,7 @@ import { perSecond, unitText } from "../../model/numbers.js";
 import { OWN } from "../../model/own.js";
 import { dotted } from "../../model/values.js";
 import { inline } from "../formula.js";
-import { settled } from "../settled.js";
+import { numberField } from "../number-field.js";
 
 /** @typedef {import("./page.js").View} View */
 /** @typedef {import("../../model/labs/options.js").Option} Option */
@@ -57,12 +57,8 @@ export function labelOf({ t }, { label, description }) {
 const field = (view, option, control) =>
   html`<label class="field"><span>${labelOf(view, option)}</span>${control}</label>`;
 
-/** @param {number | ""} value @param {(value: number) => void} put @param {{min?: number, max?: number, step?: string, placeholder?: string}} [bounds] */
-function number(value, put, { min, max, step = "any", placeholder = "" } = {}) {
-  const changed = (/** @type {Event} */ e) =>
-    textOf(e) !== "" && Number.isFinite(Number(textOf(e))) && put(Number(textOf(e)));
-  return html`<input type="number" inputmode="decimal" step=${step} min=${min ?? nothing} max=${max ?? nothing} placeholder=${placeholder} .value=${settled(String(value))} @change=${changed}>`;
-}
+/** What is outside of its bounds the service refuses, in a sentence. @param {View} view @param {number | ""} value @param {(value: number) => void} put @param {number} [least] */
+const number = ({ state }, value, put, least) => numberField({ value, lang: state.place.lang, put, least });
 
 /** @param {View} view @param {Option} option */
 function quantity(view, option) {
@@ -73,7 +69,7 @@ function quantity(view, option) {
   return field(
     view,
     option,
-    number(shown, (given) => benches.edit({ [name]: given }), range),
+    number(view, shown, (given) => benches.edit({ [name]: given }), range?.min),
   );
 }
 
@@ -146,13 +142,13 @@ function side(view, { name, label, values: usual }) {
   const choose = (/** @type {Event} */ e) =>
     put(rangeOf(parameters.find((one) => one.name === textOf(e)) ?? parameters[0]));
   const count = () =>
-    html`<label class="field row count"><span>${t("labs.count")}</span>${number(now.count ?? usual ?? "", (given) => put({ count: given }), { step: "1" })}</label>`;
+    html`<label class="field row count"><span>${t("labs.count")}</span>${number(view, now.count ?? usual ?? "", (given) => put({ count: given }), 0)}</label>`;
   return html`
     <fieldset class="side"><legend>${t(`labs.${label}`)}</legend>
       <select aria-label=${t("labs.parameter")} .value=${live(now.parameter)} @change=${choose}>${entries(parameters, now.parameter)}</select>
-      <label><span class="unseen">${t("labs.from")}</span>${number(now.from, (from) => put({ from }))}</label>
+      <label><span class="unseen">${t("labs.from")}</span>${number(view, now.from, (from) => put({ from }))}</label>
       <span aria-hidden="true">…</span>
-      <label><span class="unseen">${t("labs.to")}</span>${number(now.to, (to) => put({ to }))}</label>
+      <label><span class="unseen">${t("labs.to")}</span>${number(view, now.to, (to) => put({ to }))}</label>
       ${usual ? count() : nothing}
     </fieldset>`;
 }
@@ -172,14 +168,14 @@ function values(view, scene) {
     <details class="numbers-of-scene" ?open=${changed > 0}><summary>${t("labs.values")}</summary>
       ${scene.parameters.map(
         ({ name, latex, unit, value }) => html`<label class="field row"><span>${inline(latex || name)}</span>
-        ${number(parameters[name] ?? value, (given) => benches.edit({ parameters: { ...parameters, [name]: given } }))}<span class="unit">${unitText(unit ?? "")}</span></label>`,
+        ${number(view, parameters[name] ?? value, (given) => benches.edit({ parameters: { ...parameters, [name]: given } }))}<span class="unit">${unitText(unit ?? "")}</span></label>`,
       )}
       ${scene.coordinates
         .filter(({ name }) => !guided.has(name))
         .map(
           ({ name, latex, unit, value, rate }) => html`
-        <label class="field row"><span>${inline(`${latex || name}(0)`)}</span>${number(initial[name]?.value ?? value, (given) => start(name, { value: given }))}<span class="unit">${unitText(unit ?? "")}</span></label>
-        <label class="field row"><span>${inline(`${dotted(latex || name)}(0)`)}</span>${number(initial[name]?.rate ?? rate, (given) => start(name, { rate: given }))}<span class="unit">${unitText(perSecond(unit ?? ""))}</span></label>`,
+        <label class="field row"><span>${inline(`${latex || name}(0)`)}</span>${number(view, initial[name]?.value ?? value, (given) => start(name, { value: given }))}<span class="unit">${unitText(unit ?? "")}</span></label>
+        <label class="field row"><span>${inline(`${dotted(latex || name)}(0)`)}</span>${number(view, initial[name]?.rate ?? rate, (given) => start(name, { rate: given }))}<span class="unit">${unitText(perSecond(unit ?? ""))}</span></label>`,
         )}
     </details>`;
 }

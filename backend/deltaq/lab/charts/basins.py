@@ -126,7 +126,7 @@ def _boundary(result: Result, say: Say) -> Chart:
                 "x": x,
                 "y": fitted,
                 "line": line,
-                "name": f"ε^{found['exponent']:.2f}",
+                "name": say(f"{KEY}.fitted", exponent=found["exponent"]),
             }
         )
     axes = {"xaxis": axis(say(f"{KEY}.distance"), log=True), "yaxis": axis(say(f"{KEY}.uncertain"), log=True)}
