@@ -28,6 +28,7 @@ const START = {
     n: asked.n,
     set: asked.set,
     formulation: asked.formulation,
+    release: asked.release,
     theme: asked.theme,
     lang: startLanguage(asked.lang, navigator.languages),
   },

@@ -21,7 +21,7 @@ import { readChanges } from "./values.js";
  */
 
 /** @type {import("./types.js").Parts} */
-const PARTS = ["coordinates", "rates", "positions", "loads", "energy"];
+const PARTS = ["coordinates", "rates", "positions", "loads", "multipliers", "energy"];
 export const SECONDS = 10;
 const SAMPLES = samplesFor(500);
 
@@ -42,13 +42,14 @@ export function createHandout(store, api, own) {
 
   /** @returns {Promise<Partial<Sheet>>} */
   async function derived() {
-    const { lang, scene, n, formulation, set: changes } = get().place;
+    const { lang, scene, n, formulation, set: changes, release } = get().place;
     const { parameters: values, initial } = readChanges(changes);
     const asked = scene === OWN && own ? asTyped(own) : scene;
     /** @type {Record<string, number>} */
     const parameters = n ? { n } : {};
+    const released = release ? { release: release.split(",") } : {};
     const [{ chapters }, document, trajectory] = await Promise.all([
-      api.derive({ scene: asked, lang, formulation, parameters }),
+      api.derive({ scene: asked, lang, formulation, parameters, ...released }),
       own && scene === OWN ? completed(own) : api.scene(scene, lang, n),
       sampled(api.simulate)({
         scene: asked,
@@ -57,6 +58,7 @@ export function createHandout(store, api, own) {
         t_end: SECONDS,
         samples: SAMPLES,
         include: PARTS,
+        ...released,
         lang,
       }).catch(() => null),
     ]);

@@ -152,8 +152,8 @@ function film(take, t) {
 /** @param {View} view @param {Take} take */
 function files(view, take) {
   const { state, t } = view;
-  const { scene, lang, theme, formulation, n, set } = state.place;
-  const handout = `/handout${writePlace({ ...HOME, scene, lang, theme, formulation, n, set })}${fragment(state)}`;
+  const { scene, lang, theme, formulation, n, set, release } = state.place;
+  const handout = `/handout${writePlace({ ...HOME, scene, lang, theme, formulation, n, set, release })}${fragment(state)}`;
   return html`
     <ul class="files">
       <li>${handoutLink(handout, t)}</li>

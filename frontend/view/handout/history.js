@@ -2,6 +2,7 @@
 
 import { html, svg } from "lit-html";
 import { inline } from "../formula.js";
+import { brief } from "../../model/numbers.js";
 import { picturesOf, ROOM, SIZE } from "../../model/history.js";
 
 /** @typedef {import("../../model/history.js").Picture} Picture */
@@ -18,7 +19,7 @@ export function history({ scene, trajectory, lang, title, label }) {
 function one({ unit, lines, columns, rows }, label, lang) {
   const { width, height } = SIZE;
   const [left, right, top, bottom] = [ROOM.left, width - ROOM.right, ROOM.top, height - ROOM.bottom];
-  const said = (/** @type {number} */ value) => value.toLocaleString(lang);
+  const said = (/** @type {number} */ value) => brief(value, 6, lang);
   return html`
     <div class="picture"><p>${lines.map(({ latex, className }) => inline(latex, className))}<span class="unit">${unit ? `in ${unit}` : ""}</span></p>
       <svg viewBox="0 0 ${width} ${height}" role="img" aria-label=${label}>

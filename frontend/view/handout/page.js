@@ -10,7 +10,7 @@ import { SECONDS } from "../../model/handout.js";
 import { inLanguage } from "../../model/catalog.js";
 import { indeterminateIn } from "../../model/indeterminate.js";
 import { partsOf } from "../../model/lecture/stops.js";
-import { perSecond, unitText } from "../../model/numbers.js";
+import { brief, perSecond, unitText } from "../../model/numbers.js";
 import { caveatsOf } from "../../model/trajectory.js";
 import { dotted, readChanges } from "../../model/values.js";
 
@@ -88,7 +88,7 @@ function values({ scene, state, t }) {
   ];
   return html`
     <table><caption>${t("handout.values")}</caption>
-      <tbody>${rows.map(({ latex, value, unit }) => html`<tr><th scope="row">${inline(latex)}</th><td>${value.toLocaleString(state.place.lang, { maximumSignificantDigits: 8 })} ${unitText(unit)}</td></tr>`)}</tbody></table>`;
+      <tbody>${rows.map(({ latex, value, unit }) => html`<tr><th scope="row">${inline(latex)}</th><td>${brief(value, 8, state.place.lang)} ${unitText(unit)}</td></tr>`)}</tbody></table>`;
 }
 
 /** @param {import("../../model/reveal.js").Line} line @param {HandoutView} view */
