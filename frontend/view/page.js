@@ -180,11 +180,15 @@ function drawing(view) {
       <div class="figure-tools">${instruments?.tools(view)}</div>
       <p class="unseen" id="motion" role="status"></p>
       ${waiting ? html`<p class="patience" role="status">${patience(view)}</p>` : nothing}
-      ${doubt(view)}
-      ${unmoved(view)}
+      ${ended(view)}
+      ${isKept(state) ? nothing : unmoved(view)}
     </div>
+    ${told(view)}
   `;
 }
+
+/** What is to be said of the motion that is seen: below the drawing, of which it covers nothing. @param {View} view */
+const told = (view) => (isKept(view.state) ? html`<div class="told">${doubt(view)}${unmoved(view)}</div>` : nothing);
 
 /** Whether there is a motion to be seen, be it of the values before. @param {Pick<View["state"], "trajectory">} state */
 const isKept = ({ trajectory }) => Boolean(trajectory?.t.length);
@@ -193,17 +197,20 @@ const isKept = ({ trajectory }) => Boolean(trajectory?.t.length);
 function unmoved({ state, session, t }) {
   const { simulation, scene } = state.failures;
   if (!simulation || scene) return nothing;
-  const kept = isKept(state);
-  const heading = t(kept ? "failure.kept" : "failure.simulation");
-  const told = failure(simulation, heading, () => session.resimulate({}), t);
-  return kept ? html`<div class="kept">${told}</div>` : told;
+  const heading = t(isKept(state) ? "failure.kept" : "failure.simulation");
+  return failure(simulation, heading, () => session.resimulate({}), t);
 }
 
-/** What is to be said of the motion where there is no report below it, or nothing to draw. @param {View} view */
+/** What is to be said of the motion, in short, where there is no report of it. @param {View} view */
 function doubt(view) {
+  const [first] = caveats(view);
+  return first ? html`<p class="doubt" role="status">${first}</p>` : nothing;
+}
+
+/** What is to be said of a motion that ended before there was anything to draw. @param {View} view */
+function ended(view) {
   const [first, ...rest] = caveats(view);
-  if (!first) return nothing;
-  if (view.state.trajectory?.t.length) return html`<p class="doubt" role="status">${first}</p>`;
+  if (!first || isKept(view.state)) return nothing;
   return html`<div class="failure" role="alert"><h2>${view.t("failure.simulation")}</h2>${[first, ...rest].map((sentence) => html`<p>${sentence}</p>`)}</div>`;
 }
 

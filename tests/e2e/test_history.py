@@ -66,7 +66,7 @@ def test_the_motion_of_before_stays_where_none_can_be_computed(lecture: Lecture)
     lecture.open(SCENE)
     page.context.set_offline(True)
     length(lecture).press("ArrowRight")
-    kept = page.locator(".drawing .kept")
+    kept = page.locator(".told .failure")
     expect(kept).to_contain_text("still the motion of the values before")
     expect(page.locator(".figure.failed")).to_have_count(0)
     assert kept.bounding_box()["height"] < 0.25 * page.locator(".drawing").bounding_box()["height"]  # type: ignore[index]

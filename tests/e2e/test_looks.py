@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import re
+
 import pytest
 from playwright.sync_api import Browser, Page, expect
 from tests.e2e.lecture import Lecture
@@ -9,7 +11,7 @@ from tests.e2e.waiting import PATIENCE, frames, until, until_equal
 
 pytestmark = pytest.mark.e2e
 
-SIZES = ((360, 740), (768, 1024), (1280, 720), (1920, 1080))
+SIZES = ((360, 740), (768, 1024), (1000, 700), (1280, 720), (1920, 1080))
 # The scene with the longest title.
 LONG = "scene=elastic-pendulum"
 PAGES = [
@@ -189,3 +191,107 @@ def test_a_page_wears_its_theme_before_it_has_its_texts(page: Page, server: str,
     page.route("**/api/v1/catalogs/**", lambda route: route.abort())
     page.goto(f"{server}{place}&lang=de&theme=dark")
     expect(page.locator("html")).to_have_attribute("data-theme", "dark")
+
+
+@pytest.mark.one_in(2)
+@pytest.mark.parametrize(
+    ("place", "width"),
+    [
+        pytest.param("scene?scene=string-pendulum", 390, id="phone"),
+        pytest.param("scene?scene=string-pendulum&view=lecture", 1366, id="lecture mode"),
+        pytest.param("embed?scene=string-pendulum", 800, id="frame"),
+    ],
+)
+def test_what_is_said_of_a_motion_covers_nothing_of_it(lecture: Lecture, place: str, width: int) -> None:
+    page = lecture.page
+    page.set_viewport_size({"width": width, "height": 768})
+    page.goto(f"{lecture.address}{place}&lang=de")
+    expect(page.locator(".doubt")).to_contain_text("Der Faden wird schlaff")
+    boxes = [page.locator(one).bounding_box() for one in (".drawing", ".doubt", ".player")]
+    drawing, said, player = (box for box in boxes if box)
+    assert drawing["height"] > 150
+    assert drawing["y"] + drawing["height"] <= said["y"] + 0.5
+    assert said["y"] + said["height"] <= player["y"] + 0.5
+
+
+def test_chapters_stand_in_line_with_the_choices_beside_them(browser: Browser, server: str) -> None:
+    context = browser.new_context(viewport={"width": 390, "height": 844}, has_touch=True)
+    page = context.new_page()
+    page.goto(f"{server}scene?scene=pendulum&lang=en")
+    middle = """e => {
+        const range = document.createRange();
+        range.selectNodeContents(e);
+        const { top, bottom } = range.getBoundingClientRect();
+        return (top + bottom) / 2;
+    }"""
+    chapter = page.locator(".chapters a").first.evaluate(middle)
+    assert chapter == pytest.approx(page.locator(".release .chosen").evaluate(middle), abs=2)
+    context.close()
+
+
+# Numbers with a point, not of a section, a step or a date, and not 1.000 for a thousand; and where they stand.
+POINTS = r"""() => {
+    const POINT = /(?<![\d.§]|[Ss]chritt )\b\d+\.(?!000\b)\d+(?![\d.])/;
+    const CODE = 'script, style, code, pre, annotation, option:not(:checked), :is(.step, .paper, nav) .number';
+    const found = [];
+    const look = (where, text) => POINT.test(text ?? '') && found.push(`${where}: ${text.trim().slice(0, 90)}`);
+    const walker = document.createTreeWalker(document.body, NodeFilter.SHOW_TEXT);
+    while (walker.nextNode()) {
+        const { data, parentElement: around } = walker.currentNode;
+        if (!around.closest(CODE)) look(`${around.tagName} ${around.getAttribute('class')}`, data);
+    }
+    for (const element of document.querySelectorAll('main *')) {
+        for (const name of ['aria-label', 'aria-valuetext', 'title', 'placeholder'])
+            look(`${name} of ${element.tagName}`, element.getAttribute(name));
+        if (element.matches('input.decimal, input[inputmode]')) look(element.id || element.ariaLabel, element.value);
+        if (element.matches('input[type=range]:not([aria-valuetext])')) look(element.ariaLabel, element.value);
+    }
+    return found;
+}"""
+NUMBERED = [
+    pytest.param("scene?scene=cartesian-pendulum&with=phase,bars&at=1.25", ".plots.ready .reading", id="scene"),
+    pytest.param("scene?scene=stick-slip&panel=plots&t=2.5&at=1.5", ".plots.ready .reading", id="friction"),
+    pytest.param("scene?scene=rolling-disc&vary=s:0.25&at=1.5", ".virtual-panel .decimal", id="variation"),
+    pytest.param("scene?scene=four-bar&view=lecture&beside=plots&at=1.5", ".slide .katex", id="lecture mode"),
+    pytest.param("scene?scene=pendulum&edit=form", ".editor .field .katex", id="editor"),
+    pytest.param("handout?scene=four-bar", ".paper .history path.curve", id="handout"),
+    pytest.param("homework?side=sheet&scene=pendulum", ".catalogue .katex", id="sheet in the making"),
+    pytest.param("labs?lab=basins", ".question .decimal", id="lab"),
+    pytest.param("labs?lab=stability", ".question .decimal", id="lab with a slider"),
+]
+
+
+@pytest.mark.one_in(4)
+@pytest.mark.parametrize(("place", "ready"), NUMBERED)
+def test_a_german_reader_sees_decimal_commas(lecture: Lecture, place: str, ready: str) -> None:
+    """In texts, on axes, in fields, and in what is only heard."""
+    page = lecture.page
+    page.emulate_media(reduced_motion="reduce")
+    page.goto(f"{lecture.address}{place}&lang=de")
+    page.locator(ready).first.wait_for(state="attached")
+    if place.startswith("labs"):
+        page.locator(".question button.main:enabled").click()
+        page.locator("p.files").wait_for()
+    frames(page, 2)
+    assert page.evaluate(POINTS) == []
+
+
+@pytest.mark.parametrize(
+    ("lang", "typed", "shown", "asked"),
+    [("de", "0,75", "0,75", "l:0.75"), ("de", "0.75", "0,75", "l:0.75"), ("en", "0,75", "0.75", "l:0.75")],
+)
+def test_a_number_is_typed_with_a_comma_or_a_point(
+    lecture: Lecture, lang: str, typed: str, shown: str, asked: str
+) -> None:
+    page = lecture.page
+    lecture.open(f"?scene=pendulum&lang={lang}")
+    field = page.locator("[data-slider=parameter-l-value] .decimal")
+    field.fill(typed)
+    field.press("Enter")
+    expect(field).to_have_value(shown)
+    expect(page).to_have_url(re.compile(asked))
+    field.press("ArrowUp")  # a step of the slider
+    expect(page).not_to_have_url(re.compile(asked))
+    field.fill("wide")
+    field.press("Tab")
+    assert field.input_value() != "wide"
