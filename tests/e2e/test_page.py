@@ -355,7 +355,7 @@ def test_requests_of_a_first_and_of_a_second_visit(lecture: Lecture) -> None:
 
 def test_a_chain_of_another_length_is_another_scene(lecture: Lecture) -> None:
     lecture.open("?scene=chain-pendulum&lang=en&n=3")
-    size = lecture.page.locator("[data-slider='size'] input[type='number']")
+    size = lecture.page.locator("[data-slider='size'] .decimal")
     expect(size).to_have_value("3")
     expect(lecture.page.locator("svg .bob")).to_have_count(3)
     size.fill("2")
