@@ -71,9 +71,7 @@ class KernelReader(Reader):
         return self._is_positive(pair[0])
 
     def _kernel(self, form: Form, exponent: Any) -> Form:
-        key = f"~~{sympy.sstr(self.expression(form))}"
-        self.bases[key] = form
-        return fourier.monomial(key, fourier.whole(exponent))
+        return fourier.monomial(self._named_base(form), fourier.whole(exponent))
 
     def cleared(self, form: Form) -> tuple[Form, Monomial]:
         """As it is: kernels are not cleared here."""

@@ -91,6 +91,14 @@ class Reader(Generators):
         squared = self._base(self.multiply(form, form), fmpq(-1 if sign else 1, 2), expr)
         return self.multiply(form, squared) if sign else squared
 
+    def _named_base(self, form: Form) -> str:
+        """The generator that stands for a base; x⁴/√(x²)², in which it may stand itself, is the base x²."""
+        written = self.expression(form)
+        key = f"~~{sympy.sstr(written)}"
+        stands_in_itself = any(name == key for mono, _, _ in form for name, _ in mono)
+        self.bases[key] = self.form(written) if stands_in_itself else form
+        return key
+
     def _product(self, expr: Any) -> Form:
         product = fourier.constant(1)
         for factor in sorted((self.form(a) for a in expr.args), key=len):
@@ -143,8 +151,7 @@ class Reader(Generators):
             if int(size.p) * int(size.q) > _LARGEST_FACTORED:
                 return self._opaque(expr)
         monic = fourier.scale(form, 1 / size)
-        key = f"~~{sympy.sstr(self.expression(monic))}"
-        self.bases[key] = monic
+        key = self._named_base(monic)
         number = self._power(sympy.Rational(int(size.p), int(size.q)), sympy.Rational(int(exponent.p), int(exponent.q)))
         return self.multiply(number, fourier.monomial(key, fourier.whole(exponent)))
 
