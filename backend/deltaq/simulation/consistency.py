@@ -182,12 +182,12 @@ class _Constraints:
 
     def scales(self, q: Floats) -> Floats:
         """What brings the diagonal of AM⁻¹Aᵀ to 1 from both sides: shape (m,)."""
-        return _scales(self._schur_complement(q))
+        return unit_diagonal(self._schur_complement(q))
 
     def spectrum(self, q: Floats) -> tuple[Floats, Floats]:
         """The eigenvalues of AM⁻¹Aᵀ scaled to a unit diagonal, rising, shape (m,), and its eigenvectors, (m, m)."""
         schur = self._schur_complement(q)
-        inverse = _scales(schur)
+        inverse = unit_diagonal(schur)
         values, vectors = np.linalg.eigh(schur * inverse * inverse[:, None])
         return values, vectors
 
@@ -207,9 +207,9 @@ class _Constraints:
         return max(ranks, default=0)
 
 
-def _scales(schur: Floats) -> Floats:
-    """What brings a diagonal to 1 from both sides, 0 where it is 0: shape (m,)."""
-    own = np.sqrt(np.maximum(schur.diagonal(), 0.0))
+def unit_diagonal(schur: Floats) -> Floats:
+    """What brings the diagonals of matrices to 1 from both sides, 0 where it is 0: shape (…, m) of (…, m, m)."""
+    own = np.sqrt(np.maximum(np.diagonal(schur, axis1=-2, axis2=-1), 0.0))
     return np.divide(1.0, own, out=np.zeros_like(own), where=own > 0.0)
 
 
@@ -225,7 +225,7 @@ def _shortest(mass: Floats, rows: Floats, right: Floats) -> Floats:
     """The shortest x in the metric of M with A x = `right`: M⁻¹Aᵀ(AM⁻¹Aᵀ)⁺ right."""
     responses = _solved(mass, rows.T)
     schur = rows @ responses
-    inverse = _scales(schur)
+    inverse = unit_diagonal(schur)
     values, vectors = np.linalg.eigh(schur * inverse * inverse[:, None])
     kept = values > SMALLEST_SCHUR_PIVOT  # those that count as independent
     inside = (vectors[:, kept].T @ (inverse * right)) / values[kept]

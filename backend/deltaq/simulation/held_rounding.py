@@ -10,6 +10,7 @@ from __future__ import annotations
 import numpy as np
 
 from ..model.linear_system import linear_system
+from .consistency import unit_diagonal
 from .kernels.motion import SMALLEST_SCHUR_PIVOT
 from .problem import Floats, Problem
 
@@ -40,8 +41,7 @@ def _moved(mass: Floats, rows: Floats, terms: Floats) -> Floats:
     """|M⁻¹Aᵀ(AM⁻¹Aᵀ)⁺| δg: shape (samples, n)."""
     responses = np.linalg.pinv(mass, hermitian=True) @ rows.transpose(0, 2, 1)
     schur = rows @ responses
-    own = np.sqrt(np.maximum(np.diagonal(schur, axis1=1, axis2=2), 0.0))
-    scales = np.divide(1.0, own, out=np.zeros_like(own), where=own > 0.0)
+    scales = unit_diagonal(schur)
     inverse = np.linalg.pinv(
         schur * scales[:, :, None] * scales[:, None, :], rcond=SMALLEST_SCHUR_PIVOT, hermitian=True
     )

@@ -35,12 +35,12 @@ from .system import (
 MOST_CORRECTIONS, SURE = 8, 2  # Newton's corrections; behind so many, one that is small in itself is the last
 # Of a scaled pivot of AM⁻¹Aᵀ, and of the square of a row of A, of the largest: with less, rounding may count in rates.
 INDEPENDENT, SMALL_ROW = 1e-6, 1e-4
-NEGLIGIBLE, SMALL, LARGE = 0, 1, 2  # ranks of a correction
+NEGLIGIBLE, SMALL, LARGE = 0, 1, 2  # size classes of a correction
 CLOSER = 2.3e-11  # ε^⅔: a second correction by the same A that is this small leaves its power 3/2
 
 
 @inline
-def rank_change(value: float, change: float, part: float, reach: float) -> int:
+def size_class(value: float, change: float, part: float, reach: float) -> int:
     """NEGLIGIBLE up to a `part` of the value or of its `reach`, SMALL up to that part of 1, else LARGE, NaN as well."""
     size, change = abs(value), abs(change)
     if change <= part * max(size, reach):
@@ -49,24 +49,24 @@ def rank_change(value: float, change: float, part: float, reach: float) -> int:
 
 
 @inline
-def is_settled(rank: int, tries: int) -> bool:
-    """Whether a correction whose largest change has this rank is the last one, `tries` having come before."""
-    return rank == NEGLIGIBLE or (rank == SMALL and tries >= SURE)
+def is_settled(largest: int, tries: int) -> bool:
+    """Whether a correction whose largest change is of this size class is the last one, `tries` having come before."""
+    return largest == NEGLIGIBLE or (largest == SMALL and tries >= SURE)
 
 
 @inline
 def take_projected(system: System, h: float, rates: Floats) -> int:
-    """What was projected becomes the state in `inputs`; the rank of the largest change, for a part CLOSE.
+    """What was projected becomes the state in `inputs`; the size class of the largest change, for a part CLOSE.
 
     A coordinate or rate reaches as far as it moves in h seconds. `rates` are d/dt of (q, q̇) nearby, shape (≥ 2n,).
     """
-    rank = NEGLIGIBLE
+    largest = NEGLIGIBLE
     for i in range(2 * system.head[DEGREES]):
         value = system.projected[i]
         change = system.inputs[i] - value
         system.inputs[i] = value
-        rank = max(rank, rank_change(value, change, CLOSE, abs(h * rates[i])))
-    return rank
+        largest = max(largest, size_class(value, change, CLOSE, abs(h * rates[i])))
+    return largest
 
 
 @inline
@@ -88,17 +88,17 @@ def project_solved(system: System, h: float, rates: Floats) -> bool:
 
 @inline
 def take_placed(system: System, part: float, h: float, rates: Floats) -> int:
-    """Takes from q in `inputs` what it is off by; the rank of the largest change, for this `part`.
+    """Takes from q in `inputs` what it is off by; the size class of the largest change, for this `part`.
 
     `rates` are d/dt of (q, q̇) nearby, shape (≥ 2n,).
     """
-    rank = NEGLIGIBLE
+    largest = NEGLIGIBLE
     for i in range(system.head[DEGREES]):
         change = system.placed[i]
         value = system.inputs[i] - change
         system.inputs[i] = value
-        rank = max(rank, rank_change(value, change, part, abs(h * rates[i])))
-    return rank
+        largest = max(largest, size_class(value, change, part, abs(h * rates[i])))
+    return largest
 
 
 @inline
