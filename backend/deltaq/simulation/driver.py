@@ -130,22 +130,22 @@ def _trajectory(
         times, errors = times[: len(states)], errors[: len(states)]
         of_multipliers = of_multipliers if of_multipliers is None else of_multipliers[: len(states)]
     return Trajectory(
-        method.id,
-        outcome(problem, method, best, tolerance, step, guide_jump),
-        times,
-        states[:, :n],
-        states[:, n : 2 * n],
-        states[:, 2 * n] if states.shape[1] > 2 * n else np.zeros(len(states)),
-        None if found is None else Estimate(errors, found.worst, found.horizon, multipliers=of_multipliers),
-        is_reached,
-        best.reached,
-        min(run.conditioning for run in best.runs),
-        _cost(attempts, best),
-        _event_occurrence(best),
-        best.seen_until,
-        reactions,
-        transitions,
-        stretches,
+        method=method.id,
+        outcome=outcome(problem, method, best, tolerance, step, guide_jump),
+        times=times,
+        values=states[:, :n],
+        rates=states[:, n : 2 * n],
+        work=states[:, 2 * n] if states.shape[1] > 2 * n else np.zeros(len(states)),
+        estimate=None if found is None else Estimate(errors, found.worst, found.horizon, multipliers=of_multipliers),
+        tolerance_reached=is_reached,
+        reached=best.reached,
+        conditioning=min(run.conditioning for run in best.runs),
+        cost=_cost(attempts, best),
+        event=_event_occurrence(best),
+        seen_until=best.seen_until,
+        reactions=reactions,
+        transitions=transitions,
+        stretches=stretches,
     )
 
 
