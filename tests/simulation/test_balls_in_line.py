@@ -151,7 +151,7 @@ def test_what_impulses_make_of_rounding_is_told(method: str) -> None:
         assert found.outcome.status == "ok"
         true = np.abs(found.values - balls.exactly(found.times.tolist())).max(axis=1)
         covered.append(bool((true <= found.estimate.errors + EVER).all()))
-    assert sum(covered) >= 15, covered
+    assert all(covered), covered
 
 
 @pytest.mark.parametrize("method", METHODS)

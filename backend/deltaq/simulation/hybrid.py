@@ -38,6 +38,8 @@ IN_A_STEP, ALWAYS = 2.0, 1000  # switches in one given step on average, and in a
 NEAR = 1e-6  # of the span, of differences
 SAME = 1e-13  # of the time, and at least of the span or of a second, whichever is shorter
 SHAKE = 8.0 * 2.0**-52  # of a rate, and of what it changes by up to the time
+OF_TERMS = 2.0 * 2.0**-52  # of the terms of the momenta that jump: M is rounded, and the same at each impact
+OF_TIME = 2.0**-52  # of the time of a jump, which is rounded up more often than down
 NARROW = 1.0 / 16.0  # of the gaps that count as closed
 OUTCOMES: Mapping[type[Exception], int] = {
     UnsettledError: UNSETTLED,
@@ -109,14 +111,14 @@ def run_on(
     """The run of a problem in modes, with samples at `times`, shape (samples,), as far as it comes.
 
     With `parts`, those of it that may have missed a force are run again before it goes on behind them. One that is
-    `shaken` has its rates moved by a little more than rounding does, at its start and behind each event: impacts part
+    `shaken` is moved by a little more than rounding does, at its start and behind each event: impacts part
     neighbours, and two runs that round alike would know nothing of it. `begin` is `begun` of the problem, where several
     runs have the same.
     """
     start = _first(modes, steps, begin or partial(begun, problem, modes))
     if isinstance(start, _End):
         return _not_begun(problem, times, steps, start)
-    current = with_offsets(_shaken(start, 0, steps.shaken))
+    current = with_offsets(_shaken(start, start.v, 0, steps.shaken))
     width, count = current.problem.state.size, len(problem.reactions)
     most_switches = _most_switches(steps, float(times[-1]))
     record = _Record(np.zeros((times.size, width)), np.zeros((times.size, count)), most_switches)
@@ -138,7 +140,8 @@ def run_on(
         behind = _behind(current, event, record, float(times[-1]))
         if isinstance(behind, _End):
             return _whole(record, times, behind.outcome, event.time, found, behind.at)
-        current = with_offsets(_shaken(behind, len(record.meshes), steps.shaken))
+        rates = event.state[problem.degrees : 2 * problem.degrees]
+        current = with_offsets(_shaken(behind, rates, len(record.meshes), steps.shaken))
         if current.time >= times[-1]:
             return _whole(record, times, FINE, float(times[-1]), found)
 
@@ -270,25 +273,27 @@ def _closed(modes: Modes, steps: Steps) -> float:
     return NARROW * TOUCHING if modes.contacts and steps.shaken == 0 else TOUCHING
 
 
-def _shaken(current: ModeState, number: int, pattern: int) -> ModeState:
-    """The state with its rates moved by what rounding of them and of the time would do, up and down in no simple order.
+def _shaken(current: ModeState, before: Floats, number: int, pattern: int) -> ModeState:
+    """The state moved by what rounding would do, up and down in no simple order; `before` it jumped, q̇ was that.
 
     What is held stays as it is, and constraints are kept. Where forces exceed all numbers, or M has no inverse, the run
-    tells so itself.
+    tells so itself. Both q̇ have shape (n,).
     """
     if pattern == 0 or any(current.mode.flags):
         return current
     with suppress(np.linalg.LinAlgError):
         if all(map(math.isfinite, current.accelerations.tolist())):
-            return _moved_by_rounding(current, number, pattern)
+            return _moved_by_rounding(current, current.v - before, number, pattern)
     return current
 
 
-def _moved_by_rounding(current: ModeState, number: int, pattern: int) -> ModeState:
-    size = np.abs(current.v) + current.time * np.abs(current.accelerations)
-    change = SHAKE * size * np.cos(2.0 * np.arange(len(size)) + pattern * (number + 2.0))
-    kept = current.moved_by(current.mass @ change) if len(current.kept[0]) else change
-    return current.with_rates(current.v + kept)
+def _moved_by_rounding(current: ModeState, jump: Floats, number: int, pattern: int) -> ModeState:
+    """What rounding does to rates, differently each time; to a jump of theirs, and to its time, always alike."""
+    size, rows = np.abs(current.v) + current.time * np.abs(current.accelerations), np.arange(len(jump))
+    wave = np.cos(2.0 * rows + pattern * (number + 2.0))
+    momenta = SHAKE * current.mass @ (size * wave)
+    momenta += OF_TERMS * (np.abs(current.mass) @ np.abs(jump)) * np.cos(3.0 * rows + 1.7 * pattern)
+    return current.at(current.time, current.q + OF_TIME * current.time * jump, current.v + current.moved_by(momenta))
 
 
 def _falling(current: ModeState, event: Event) -> Event:
