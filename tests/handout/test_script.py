@@ -17,6 +17,7 @@ from tests.derivation.scenes import constrained
 from tests.simulation.carts import Cart, Train
 from tests.simulation.carts import drawn as carts
 from tests.simulation.constrained import G, platform
+from tests.simulation.test_reactions import hanging
 
 from deltaq.errors import RequestError
 from deltaq.handout.script import comment, script
@@ -209,11 +210,13 @@ def test_a_ball_that_comes_to_rest_stays_there(tmp_path: Path) -> None:
     np.testing.assert_allclose(z[resting], 0.0, atol=1e-10)
 
 
+ON_ONE_SIDE = {"kind": "force", "at": "bob", "force": ["-50*min(l*sin(phi)-0.2,0)", "0"]}
 RELEASED = [
     pytest.param({"scene": "pendulum"}, "l", id="a rod"),
     pytest.param({"scene": "double-pendulum"}, "l1", id="a rod that carries another"),
     pytest.param({"scene": "base-pendulum", "guides": [{"coordinate": "y", "value": "0.1*t^2"}]}, "y", id="a guide"),
     pytest.param({"scene": "slider-crank"}, "r", id="a crank among constraints"),
+    pytest.param({"scene": hanging(ON_ONE_SIDE)}, "l", id="a rod beside a kink"),
 ]
 
 

@@ -184,6 +184,15 @@ def _in_modes(scene: Scene) -> Equations:
     return _Assembly(scene).equations
 
 
+def in_modes(scene: Scene, expressions: Sequence[Expr]) -> tuple[tuple[Expr, ...], list[Expr]]:
+    """What a scene's model in modes reads, and expressions of its motion there: with the signs that it has, or holds.
+
+    A kink in them that the motion does not meet is one of the state as it stands.
+    """
+    found = _Assembly(scene)
+    return found.symbols.inputs, [found.in_motion(each) for each in expressions]
+
+
 def has_switches(scene: Scene) -> bool:
     """Whether max, min, step, sign or a modulus stands in a load of the scene."""
     return _has_words(scene, ("max", "min", "step", "heaviside", "sign", "abs"))
@@ -250,6 +259,11 @@ class _Assembly:
         """The expression with signs of slipping, and then all others, as parameters."""
         replaced = {sign(w): sigma for w, sigma in zip(self.slips, self._sigmas_of_friction, strict=True)}
         return self.signs.smooth(se.sympify(expression).subs(replaced))
+
+    def in_motion(self, expression: Expr) -> Expr:
+        """An expression along the motion, without friction: its signs as parameters, what is held between them."""
+        own = self.bounded[len(self.frictions) :]
+        return self._between(by_signs(self.signs.by_known(expression), own))
 
     def _rows(self) -> Iterator[Row]:
         for w in self.slips:

@@ -37,6 +37,14 @@ class Smoothing:
 
     def smooth(self, expression: Expr) -> Expr:
         """The expression with every kink of the state replaced by its sign, innermost first."""
+        return self._replaced(expression, self._is_switched)
+
+    def by_known(self, expression: Expr) -> Expr:
+        """The same of those kinks alone whose signs are known already."""
+        return self._replaced(expression, lambda margin: self._known_sign(margin) is not None)
+
+    def _replaced(self, expression: Expr, is_chosen: Callable[[Expr], bool]) -> Expr:
+        """The expression with the kinks replaced at whose margins that is so."""
         kept: dict[Expr, Expr] = {}
         while True:
             found = [
@@ -44,7 +52,7 @@ class Smoothing:
                 for piece in sorted(parts([expression], se.Piecewise), key=str)
                 if not parts(_branches(piece), se.Piecewise) and _is_choice(piece)
             ]
-            chosen = next((p for p in found if self._is_switched(_restored(_margin(p), kept))), None)
+            chosen = next((p for p in found if is_chosen(_restored(_margin(p), kept))), None)
             if chosen is None:
                 return _restored(expression, kept)
             other = self._by_sign(_restored(chosen, kept))
@@ -66,15 +74,21 @@ class Smoothing:
         return HALF * (above + below) + sigma * HALF * (above - below)
 
     def _sign(self, margin: Expr) -> Expr:
+        known = self._known_sign(margin)
+        if known is not None:
+            return known
+        self.values.append(_without_number(margin))
+        self.sigmas.append(self._make())
+        return self.sigmas[-1]
+
+    def _known_sign(self, margin: Expr) -> Expr | None:
         margin = _without_number(margin)
         for way in (1, -1):
             if way * margin in self._known:
                 return way * self._known[way * margin]
             if way * margin in self.values:
                 return way * self.sigmas[self.values.index(way * margin)]
-        self.values.append(margin)
-        self.sigmas.append(self._make())
-        return self.sigmas[-1]
+        return None
 
     def jumping(self, expressions: Iterable[Expr]) -> tuple[list[int], list[int]]:
         """The switching functions at whose zeros an expression jumps: those of rates, and those of places alone."""

@@ -8,6 +8,7 @@ Source: Szabó, Höhere Technische Mechanik, §I.4; Lanczos, The Variational Pri
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import dataclass
 
 import symengine as se
 
@@ -17,21 +18,40 @@ from .compiled import Compiled, compile_expressions
 from .equations import Equations, equations
 from .functions import Expr
 from .kinetic import ZERO
+from .model import Model
+from .modes import in_modes, modes_of
 from .slopes import slope
 from .symbols import CLOCK, Symbols
 from .symengine_algebra import to_symengine
 
 
-def reactions(scene: Scene, names: tuple[str, ...]) -> Compiled:
-    """Z of each name, of what a model reads and then q̈ of the free coordinates and λ, as its layout orders them.
+@dataclass(frozen=True)
+class HeldBy:
+    """Z of what is released, of what a model reads and then q̈ of the free coordinates and λ, as it orders them.
 
-    Raises UnknownNameError, at the place in /release, for what nothing holds.
+    `at_states` reads what the model of the scene does; `in_modes`, where motions go on behind events, what that in
+    modes does: on which side of a kink the motion is stands in its parameters alone.
     """
+
+    at_states: Compiled
+    in_modes: Compiled | None
+
+    def of(self, model: Model) -> Compiled:
+        """The function of what a model reads."""
+        return self.in_modes if model.is_in_modes and self.in_modes else self.at_states
+
+
+def reactions(scene: Scene, names: tuple[str, ...]) -> HeldBy:
+    """Z of each name. Raises UnknownNameError, at the place in /release, for what nothing holds."""
     own = Symbols.of(scene)
     multipliers = tuple(se.Symbol(f"r{k}") for k in range(len(scene.conditions)))
     found = [_reaction(scene, own, name, f"/release/{k}", multipliers) for k, name in enumerate(names)]
-    inputs = (*own.inputs, *(own.accelerations[name] for name in own.free), *multipliers)
-    return compile_expressions(inputs, found)
+    others = (*(own.accelerations[name] for name in own.free), *multipliers)
+    at_states = compile_expressions((*own.inputs, *others), found)
+    if modes_of(scene) is None:
+        return HeldBy(at_states, None)
+    inputs, in_motion = in_modes(scene, found)
+    return HeldBy(at_states, compile_expressions((*inputs, *others), in_motion))
 
 
 def _reaction(scene: Scene, own: Symbols, name: str, pointer: str, multipliers: tuple[Expr, ...]) -> Expr:

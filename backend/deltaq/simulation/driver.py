@@ -126,7 +126,7 @@ def _trajectory(
     errors, of_multipliers = told[:, 0], told[:, 1:] if told.shape[1] > 1 else None
     stretches, reactions = tuple(Stretch(each.start, each.problem) for each in best.chosen.meshes), None
     if problem.reactions:
-        states, reactions = _kept(problem, times, states, () if problem.released else stretches)
+        states, reactions = _kept(problem, times, states, stretches)
         times, errors = times[: len(states)], errors[: len(states)]
         of_multipliers = of_multipliers if of_multipliers is None else of_multipliers[: len(states)]
     return Trajectory(

@@ -7,9 +7,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from ..model.compiled import Compiled
 from ..model.linear_system import LinearSystem
 from ..model.model import Model
+from ..model.reactions import HeldBy
 
 Floats = NDArray[np.float64]
 
@@ -31,10 +31,10 @@ class Moved:
 
 @dataclass(frozen=True)
 class Released:
-    """What holds the quantities of these names: a function of what the model reads, of q̈ and λ."""
+    """What holds the quantities of these names: functions of what the model reads, of q̈ and λ."""
 
     names: tuple[str, ...]
-    function: Compiled
+    held_by: HeldBy
 
 
 @dataclass(frozen=True)
