@@ -1,8 +1,9 @@
-"""Potentials, positions and angles that jump with a coordinate are refused where they stand; what only bends is not."""
+"""What jumps with a coordinate, and positions and constraints that bend, are refused where they stand."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import replace
 from itertools import combinations
 from typing import Any
 
@@ -147,6 +148,127 @@ def test_energies_of_springs_positions_and_angles_do_not_jump_either_while_force
     if "bodies" in changes:
         changes = changes | {"bodies": [{"name": "bob", **body} for body in changes["bodies"]]}  # type: ignore[attr-defined]
     assert [problem.pointer for problem in errors(scene(**changes)) if problem.code.endswith("-jumps")] == pointers
+
+
+# The second component of a body's position, and the function with which it bends.
+BENT = [
+    ("k*max(x, 0)/4", "max(x, 0)"),
+    ("abs(x)", "abs(x)"),
+    ("k*abs(sin(x))", "abs(sin(x))"),
+    ("y + min(x, t)", "min(x, t)"),
+    ("max(t - 1, 0)", "max(t - 1, 0)"),
+    ("max(t - 200, 0)", "max(t - 200, 0)"),
+    ("x*sign(x) + y", "sign(x)"),
+    ("k*(x - 3)*step(x - 3)", "step(x - 3)"),
+    ("sqrt(x^2)", "sqrt(x^2)"),
+    ("(x^2)^(1/2)", "(x^2)^(1/2)"),
+    ("(x^4)^0.25", "(x^4)^0.25"),
+    ("sqrt((t - 1)^2)", "sqrt((t - 1)^2)"),
+    ("sqrt(x^2 - 2*x + 1)", "sqrt(x^2 - 2*x + 1)"),
+    ("sqrt(1 - cos(x))", "sqrt(1 - cos(x))"),
+    ("sqrt(1 - sin(x)^2)", "sqrt(1 - sin(x)^2)"),
+    ("acos(cos(x))", "acos(cos(x))"),
+    ("asin(sin(x + t))", "asin(sin(x + t))"),
+]
+SMOOTH_ENOUGH = [
+    "y + max(x, 0)^2",
+    "k*x*abs(x)",
+    "k*x^2*step(x)",
+    "max(t, 0)",  # a motion begins with t = 0
+    "max(t - 1, 0)^2",
+    "abs(x)^1.5",
+    "abs(2 + sin(x))",
+    "abs(k)*x",
+    "sqrt(x^2 + y^2)",  # bends in one point alone
+    "sqrt(x^2 + k/10^6)",
+    "(x + sqrt(x^2 + 1/10^8))/2",
+    "sqrt((2 + sin(x))^2)",
+    "sqrt((x^2 + k)^2)",
+    "(x^2)^(3/2)",
+    "sqrt(k - x^2)",
+    "acos(x/10)",
+    "tanh(10^4*x)",
+]
+
+
+def standing(component: str) -> dict[str, object]:
+    bodies = {"bob": ["x", component], "other": ["y", "0"]}
+    return scene(
+        bodies=[{"name": n, "kind": "particle", "mass": "m", "position": position} for n, position in bodies.items()]
+    )
+
+
+@pytest.mark.parametrize("start", STARTS)
+@pytest.mark.parametrize(("component", "call"), BENT)
+def test_a_position_that_bends_is_refused(component: str, call: str, start: tuple[float, float]) -> None:
+    told = Problem("position-bends", "/bodies/0/position/1", component.index(call), len(call), {"call": call})
+    assert errors(starting(standing(component), start)) == [told]
+
+
+@pytest.mark.parametrize("start", STARTS)
+@pytest.mark.parametrize("component", SMOOTH_ENOUGH)
+def test_a_position_whose_slopes_are_continuous_is_not(component: str, start: tuple[float, float]) -> None:
+    found = [problem.code for problem in errors(starting(standing(component), start))]
+    assert not {"position-bends", "position-jumps"} & set(found)
+
+
+def test_a_body_does_not_jump_in_time_either_nor_with_a_guide() -> None:
+    (found,) = errors(standing("x + step(t - 1)"))
+    assert (found.code, found.pointer) == ("position-jumps", "/bodies/0/position/1")
+    (found,) = errors(standing("abs(y)") | {"guides": [{"coordinate": "y", "value": "t - 1"}]})
+    assert (found.code, found.pointer) == ("position-bends", "/bodies/0/position/1")
+
+
+def test_a_point_without_mass_may_bend() -> None:
+    stop = {"points": [{"name": "wall", "position": ["max(x, 3)", "0"]}], "loads": [SPRING | {"stiffness": "k"}]}
+    assert errors(scene(**stop)) == []
+
+
+def test_a_bend_may_run_along_a_continuum() -> None:
+    rope = {"name": "bob", "kind": "continuum", "density": "m", "position": ["min(x, s)", "y"]}
+    caught = scene(bodies=[rope | {"material": [{"name": "s", "from": "-2", "to": "2"}]}])
+    assert errors(caught) == []
+
+
+# An equation, and the root in it that bends.
+BENT_CONDITIONS = [
+    ("sqrt(x^2) + y - k = 0", "sqrt(x^2)"),
+    ("y - sqrt(x^2) + k = 0", "sqrt(x^2)"),
+    ("sqrt((x - 0.05)^2) + y = k", "sqrt((x - 0.05)^2)"),
+    ("x^2 + y^2 = (k + sqrt((t - 0.5)^2)/10)^2", "sqrt((t - 0.5)^2)"),
+    ("(x^2)^(1/2) + y = k", "(x^2)^(1/2)"),
+    ("sqrt(x^2 - 2*x + 1) + y = k", "sqrt(x^2 - 2*x + 1)"),
+    ("acos(cos(x)) + y = k", "acos(cos(x))"),
+    ("sqrt((x - y)^2) = k", "sqrt((x - y)^2)"),
+    ("x/sqrt(x^2) = y", "sqrt(x^2)"),
+]
+
+
+@pytest.mark.parametrize("start", STARTS)
+@pytest.mark.parametrize(("equation", "call"), BENT_CONDITIONS)
+def test_a_constraint_that_bends_is_refused(equation: str, call: str, start: tuple[float, float]) -> None:
+    track = {"name": "track", "kind": "equation", "equation": equation}
+    told = Problem("constraint-not-smooth", "/constraints/0/equation", equation.index(call), len(call))
+    (found,) = errors(starting(scene(constraints=[track]), start))
+    assert found == replace(told, parameters={"function": call})
+
+
+@pytest.mark.parametrize(
+    "equation", ["sqrt(x^2 + y^2) = k", "sqrt((x^2 + y^2)^2) = k", "sqrt(k^2 - x^2) = y", "sqrt(4 + x^2) + y = 3"]
+)
+def test_one_whose_roots_do_not_is_not(equation: str) -> None:
+    track = {"name": "track", "kind": "equation", "equation": equation}
+    assert "constraint-not-smooth" not in [problem.code for problem in errors(scene(constraints=[track]))]
+
+
+def test_a_length_and_the_end_of_a_rod_do_not_bend() -> None:
+    rod = {"name": "rod", "kind": "distance", "from": "p", "to": "bob", "length": "k"}
+    held = scene(points=[{"name": "p", "position": ["0", "0"]}], constraints=[rod])
+    assert errors(held) == []
+    (found,) = errors(held | {"constraints": [rod | {"length": "k + sqrt((t - 1)^2)"}]})
+    assert (found.code, found.pointer) == ("constraint-not-smooth", "/constraints/0/length")
+    (found,) = errors(held | {"points": [{"name": "p", "position": ["0", "max(t - 1, 0)"]}]})
+    assert (found.code, found.pointer) == ("constraint-not-smooth", "/points/0/position/1")
 
 
 def test_a_coordinate_that_is_guided_may_pass_a_jump() -> None:

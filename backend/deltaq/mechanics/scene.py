@@ -18,6 +18,7 @@ from .bodies import Body
 from .checks import demand, load_name_problem
 from .conditions import Condition
 from .constraints import Constraint
+from .constraints.distance import DistanceConstraint
 from .contributions import Contribution, DistributedForce
 from .coordinate import Coordinate
 from .dependence import dependence_problems, random_points
@@ -214,7 +215,12 @@ class Scene:
         """The expressions that the constraints keep at zero, in their order; distances along a line have a sign."""
         found = tuple(constraint.condition(self.places) for constraint in self.constraints)
         points = tuple(random_points(self.start, [coordinate.name for coordinate in self.coordinates])) if found else ()
-        return tuple(replace(each, value=with_signed_roots(each.value, self.start, points)) for each in found)
+        return tuple(
+            replace(condition, value=with_signed_roots(condition.value, self.start, points))
+            if isinstance(constraint, DistanceConstraint)
+            else condition
+            for condition, constraint in zip(found, self.constraints, strict=True)
+        )
 
     @property
     def degrees_of_freedom(self) -> int:

@@ -5,12 +5,14 @@ from __future__ import annotations
 from ..mechanics.jumps import MOST
 from .attempt import Attempt
 from .audit import GuideJump
-from .kernels.motion import HELD, NOT_FINITE, STEP_UNDERFLOW, TOO_LARGE
+from .kernels.motion import CANCELLED, HELD, NOT_FINITE, STEP_UNDERFLOW, TOO_LARGE
+from .lengths import fading_length
 from .method import Method
-from .outcome import OK, Number, Outcome, outcome_of
+from .outcome import NO_LENGTH, OK, Number, Outcome, outcome_of
 from .problem import Problem
 from .rounding import short
-from .singular import vanishing_margin
+from .run import Run
+from .singular import last_known, vanishing_margin
 from .stability import largest_stable_step
 from .stiffness import eigenvalues
 
@@ -64,12 +66,24 @@ def _failed(
     steps = int(failed.result.steps + failed.result.rejected)
     if step is not None and failed.result.outcome == TOO_LARGE:
         return _grown(problem, method, step, told)
-    vanishing = vanishing_margin(problem, failed) if failed.result.outcome in WITHOUT_VALUE else None
-    if vanishing is not None:
-        return Outcome("singular", "singular", told | {"name": vanishing[:MOST]})
+    singular = _singular(problem, failed, told)
+    if singular is not None:
+        return singular
     where = {"name": failed.at[:MOST]} if failed.at else {}
     given = {"step": short(step)} if step is not None else {}
     return outcome_of(int(failed.result.outcome), told | {"steps": steps} | given | where)
+
+
+def _singular(problem: Problem, failed: Run, told: dict[str, Number]) -> Outcome | None:
+    """What comes to zero where a run could not go on: a prescribed length, or what something is divided by."""
+    ended = failed.result.outcome
+    if ended not in (NO_LENGTH, CANCELLED):
+        times, states, _ = last_known(problem, failed)
+        fading = fading_length(problem, times, states)
+        if fading is not None:
+            return outcome_of(NO_LENGTH, told | {"name": fading[:MOST]})
+    vanishing = vanishing_margin(problem, failed) if ended in WITHOUT_VALUE else None
+    return None if vanishing is None else Outcome("singular", "singular", told | {"name": vanishing[:MOST]})
 
 
 def _unseen(best: Attempt, step: float | None, told: dict[str, Number]) -> Outcome | None:

@@ -132,7 +132,7 @@ def run_on(
             current = part
             continue
         if found.event is None or found.result.outcome in (STEP_LIMIT, OUT_OF_REACH):
-            return _whole(record, times, found.result.outcome, float(found.result.reached), found)
+            return _whole(record, times, found.result.outcome, float(found.result.reached), found, found.at)
         event = found.event
         _fill(record, times, event, problem.degrees)
         if event.index < len(modes.ending):

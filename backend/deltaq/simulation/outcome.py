@@ -26,8 +26,8 @@ from .kernels.motion import (
 )
 
 Number: TypeAlias = str | int | float
-# No kernel says so: of runs that go on behind events; of those whose steps are too short to come anywhere.
-NO_DIRECTION, OUT_OF_REACH, SLIDES, CHATTERS, WITHIN_STEPS = (UNSETTLED + k for k in range(1, 6))
+# No kernel says so: of runs that go on behind events; of those whose steps are too short to come anywhere; of rods.
+NO_DIRECTION, OUT_OF_REACH, SLIDES, CHATTERS, WITHIN_STEPS, NO_LENGTH = (UNSETTLED + k for k in range(1, 7))
 
 JUDGED = frozenset({"ok", "event", "stopped", "guide_jumps", "horizon_reached", "tolerance_missed"})
 
@@ -70,6 +70,7 @@ _WORDS: Mapping[int, tuple[Status, str]] = MappingProxyType(
         SLIDES: ("unresolved", "slides_along_kinks"),
         CHATTERS: ("unresolved", "switches_to_and_fro"),
         WITHIN_STEPS: ("step_limit", "switches_within_steps"),
+        NO_LENGTH: ("singular_constraints", "length_vanishes"),
     }
 )
 

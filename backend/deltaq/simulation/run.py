@@ -26,8 +26,9 @@ from .kernels.motion import (
 )
 from .kernels.plan import CAPACITY, COUNT, STRIDE, Plan, make_plan
 from .kernels.step_control import Control
+from .lengths import Vanishing, first_vanishing
 from .method import Method, Series
-from .outcome import OUT_OF_REACH
+from .outcome import NO_LENGTH, OUT_OF_REACH
 from .pieces import Pieces
 from .problem import Floats, Problem
 from .reach import PART, is_far, is_steady
@@ -247,6 +248,10 @@ def _found(arguments: KernelArguments, plan: Plan, result: Result, wall_time: fl
         mesh_times, mesh_states = _to_the_end(mesh_times, mesh_states, times[:good], out[:good])
     result, event, close = _watched(arguments, times[:good], result)
     good = min(good, result.samples)
+    gone = _vanishing(problem, times[:good], known_states[:good], mesh_times, mesh_states)
+    if gone is not None and (event is None or gone.time < event.time):
+        good = max(int(np.searchsorted(times[:good], gone.time, side="right")), 1)
+        result, event, close = result._replace(outcome=NO_LENGTH, reached=gone.time, samples=good), None, ()
     return Run(
         times[:good],
         out[:good],
@@ -261,6 +266,24 @@ def _found(arguments: KernelArguments, plan: Plan, result: Result, wall_time: fl
         mesh_states=mesh_states,
         stride=stride,
         reactions=reactions and reactions.first(good),
+        at=gone.name if gone is not None and result.outcome == NO_LENGTH else "",
+    )
+
+
+def _vanishing(
+    problem: Problem, times: Floats, states: Floats, mesh_times: Floats, mesh_states: Floats
+) -> Vanishing | None:
+    """The first prescribed length that comes to zero, at the samples and the mesh up to the last of them.
+
+    `times` and `states` have shapes (samples,) and (samples, 2n), those of the mesh likewise.
+    """
+    if not (problem.is_constrained and len(times)):
+        return None
+    known = mesh_times <= times[-1]
+    every = np.append(times, mesh_times[known])
+    order = np.argsort(every, kind="stable")
+    return first_vanishing(
+        problem, every[order], np.vstack([states, mesh_states[known]])[order] if known.any() else states
     )
 
 

@@ -22,7 +22,7 @@ def vanishing_margin(problem: Problem, run: Run) -> str | None:
     margins = model.kept("margins", lambda: margins_of(of_motion(model.eqs), model.eqs.symbols))
     if margins is None:
         return None
-    times, states, step = _last(problem, run)
+    times, states, step = last_known(problem, run)
     rows = problem.inputs(times, states)
     values = margins.at(rows)
     left = margins.left(values)
@@ -37,7 +37,7 @@ def vanishing_margin(problem: Problem, run: Run) -> str | None:
     return margins.names[first] if urgency[first] <= 1.0 else None
 
 
-def _last(problem: Problem, run: Run) -> tuple[Floats, Floats, float]:
+def last_known(problem: Problem, run: Run) -> tuple[Floats, Floats, float]:
     """The times and states (q, q̇) at which the run is known, and the length of its last step in seconds."""
     width = 2 * problem.degrees
     times, states = run.times, run.states[:, :width]
