@@ -7,6 +7,7 @@ Sources: Hairer, Wanner, Solving Ordinary Differential Equations II, 2nd ed., VI
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -23,6 +24,7 @@ PASSES = 60
 SETTLED, CLOSE = 1e-13, 1e-9  # corrections relative to coordinates above 1: then done, and what must be reached
 FARTHEST = 4.0  # of a correction, in units of the coordinates or of 1: consistent positions are not near
 AROUND, POINTS = 1e-3, 3  # how far around a configuration, and at how many points, independence is looked at
+FLAT = 1e-3  # of a gradient beside the positions that keep a constraint: there it has none
 SHARES = 1e-6  # of a multiplier in a combination that has no effect
 
 
@@ -66,13 +68,20 @@ def consistent_start(model: Model, parameters: Floats, values: Floats, rates: Fl
     found = constraints.nearest(values)
     moved = np.abs(found - values) / np.maximum(1.0, np.abs(values))
     worst = constraints.worst(values if not np.isfinite(found).all() else found)
+    endless = constraints.endless(found if np.isfinite(found).all() else values, rates)
+    if endless is not None:
+        raise _refused("constraint-not-finite", places[endless], 0.0)
     if not np.isfinite(found).all() or constraints.is_off(found) or moved.max() > FARTHEST:
         raise _refused("constraint-not-met", places[worst], constraints.gaps(values, rates)[worst])
     eigenvalues, vectors = constraints.spectrum(found)
     rank = int(np.count_nonzero(eigenvalues > SMALLEST_SCHUR_PIVOT))
     if constraints.rank_around(found) > rank:
         weak = int(np.argmax(np.abs(vectors[:, 0])))
-        raise _refused("constraints-locked", places[weak], 0.0)
+        raise _refused(
+            "constraint-without-gradient" if constraints.is_flat(weak, found) else "constraints-locked",
+            places[weak],
+            0.0,
+        )
     speeds = constraints.nearest_rates(found, rates)
     slips = np.abs(constraints.slips(found, speeds))
     if (slips > CLOSE * constraints.rate_sizes(found, speeds)).any():
@@ -125,6 +134,29 @@ class _Constraints:
         """g of the holonomic ones, then w of all: shape (holonomic + m,)."""
         function = self.model.gaps
         return np.zeros(0) if function is None else function.table(self._inputs(q, v))[0]
+
+    def endless(self, q: Floats, v: Floats) -> int | None:
+        """The first constraint that has no finite g or w there; None if all have."""
+        gaps = np.hstack([self._off(q), np.zeros(len(self.slips(q, v)) - self.model.layout.holonomic)])
+        bad = ~np.isfinite(gaps + self.slips(q, v))
+        return int(np.argmax(bad)) if bad.any() else None
+
+    def is_flat(self, index: int, q: Floats) -> bool:
+        """Whether a holonomic constraint has no gradient wherever it is kept around a position, only beside it."""
+        if index >= self.model.layout.holonomic:
+            return False
+        for near in self._around(q):
+            kept = self.nearest(near)
+            sizes = [np.linalg.norm(self._mass_and_rows(each)[1][index]) for each in (kept, near)]
+            if not sizes[0] <= FLAT * sizes[1]:
+                return False
+        return True
+
+    def _around(self, q: Floats) -> Iterator[Floats]:
+        """Positions close to one."""
+        source = np.random.default_rng(1)
+        for _ in range(POINTS):
+            yield q + AROUND * np.maximum(1.0, np.abs(q)) * source.uniform(-1.0, 1.0, q.size)
 
     def slips(self, q: Floats, v: Floats) -> Floats:
         """w of all: shape (m,)."""
@@ -198,9 +230,8 @@ class _Constraints:
 
     def rank_around(self, q: Floats) -> int:
         """The largest number of independent constraints in consistent positions around one."""
-        source, ranks = np.random.default_rng(1), []
-        for _ in range(POINTS):
-            near = q + AROUND * np.maximum(1.0, np.abs(q)) * source.uniform(-1.0, 1.0, q.size)
+        ranks = []
+        for near in self._around(q):
             found = self.nearest(near)
             if np.isfinite(found).all():
                 ranks.append(int(np.count_nonzero(self.spectrum(found)[0] > SMALLEST_SCHUR_PIVOT)))

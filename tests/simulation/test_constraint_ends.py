@@ -1,4 +1,4 @@
-"""A prescribed length that comes to zero ends the motion there, and it is told of what."""
+"""Where constraints end a motion or let none begin: vanishing lengths, conditions without a gradient or a value."""
 
 from __future__ import annotations
 
@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 import pytest
 
+from deltaq.errors import SceneError
 from deltaq.simulation.service import run
 
 
@@ -64,3 +65,24 @@ def test_so_does_a_motion_that_goes_on_behind_kinks() -> None:
     found: Any = run({"scene": prescribed("1 - t/2", loads=[push]), "t_end": 3.0, "samples": 61})
     assert found["reason"]["code"] == "length_vanishes"
     assert found["reason"]["parameters"]["t"] == pytest.approx(2.0, rel=1e-3)
+
+
+# A constraint that no motion can begin with, and why.
+STARTS = [
+    pytest.param("(x^2 + y^2 - 1)^2 = 0", "constraint-without-gradient", id="a square"),
+    pytest.param("(x^2 + y^2 - 1)^3 = 0", "constraint-without-gradient", id="a cube"),
+    pytest.param("(x - 1)^2*(y + 1) = 0", "constraint-without-gradient", id="a square among factors"),
+    pytest.param("(x - 1)*y = 0", "constraints-locked", id="two lines that cross"),
+    pytest.param("x^2 + y^2 = (1 + sqrt(t))^2", "constraint-not-finite", id="an infinite rate"),
+    pytest.param("1/(x - 1) + y = 0", "constraint-not-finite", id="a pole"),
+    pytest.param("x^2 + y^2 = -1", "constraint-not-met", id="nowhere"),
+]
+
+
+@pytest.mark.parametrize(("equation", "code"), STARTS)
+def test_why_no_motion_begins_is_told(equation: str, code: str) -> None:
+    start = [{"name": "x", "value": 1.0}, {"name": "y"}]
+    track = {"name": "track", "kind": "equation", "equation": equation}
+    with pytest.raises(SceneError) as caught:
+        run({"scene": prescribed("1", plane=True, coordinates=start, constraints=[track]), "t_end": 1.0})
+    assert [(each.code, each.pointer) for each in caught.value.problems] == [(code, "/scene/constraints/0")]
