@@ -219,9 +219,6 @@ ON_A_LINE = [
     pytest.param(on_a_line(["x", "0"], ["z", "0"], (2.0, 0.0), **ROD), 1, id="from right to left"),
     pytest.param(on_a_line(["l", "x"], ["l", "z"], (0.0, 2.0), **ROD), -1, id="upright"),
     pytest.param(on_a_line(["0", "0", "x"], ["0", "0", "z"], (0.0, 2.0), **ROD), -1, id="in space"),
-    pytest.param(
-        on_a_line(["x", "0"], ["z", "0"], (0.0, 2.0), kind="equation", equation="sqrt((z - x)^2) = l"), 1, id="a root"
-    ),
 ]
 
 
