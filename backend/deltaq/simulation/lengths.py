@@ -77,7 +77,10 @@ def first_vanishing(problem: Problem, times: Floats, states: Floats) -> Vanishin
 
 
 def fading_length(problem: Problem, times: Floats, states: Floats) -> str | None:
-    """The constraint whose length had come close to zero at the last of some states, with shapes as above."""
+    """The constraint whose length had come close to zero at the last of some states; None if none had.
+
+    `times` has shape (states,), `states` shape (states, ≥ 2n).
+    """
     lengths = _lengths(problem)
     if lengths is None or len(times) < 2:
         return None
@@ -93,7 +96,10 @@ def _lengths(problem: Problem) -> Lengths | None:
 
 
 def _between(times: Floats, states: Floats, share: float) -> tuple[Floats, Floats]:
-    """Time and state at a share of the way between two, by a cubic for q and a line for q̇."""
+    """Time and state at a share of the way between two, by a cubic for q and a line for q̇: shapes (1,) and (1, 2n).
+
+    `times` has shape (2,), `states` shape (2, 2n).
+    """
     n, h = states.shape[1] // 2, float(times[1] - times[0])
     q, v = states[:, :n], states[:, n:]
     rest = 1.0 - share

@@ -26,7 +26,7 @@ from .kernels.motion import (
 )
 from .kernels.plan import CAPACITY, COUNT, STRIDE, Plan, make_plan
 from .kernels.step_control import Control
-from .lengths import Vanishing, first_vanishing
+from .lengths import first_vanishing
 from .method import Method, Series
 from .outcome import NO_LENGTH, OUT_OF_REACH
 from .pieces import Pieces
@@ -220,7 +220,7 @@ class _Task:
         start = perf_counter()
         result = run_kernel(method.scheme, arguments)
         wall_time = perf_counter() - start
-        return _found(arguments, plan, result, wall_time, steps)
+        return _while_lengths_last(problem, _found(arguments, plan, result, wall_time, steps))
 
 
 def _found(arguments: KernelArguments, plan: Plan, result: Result, wall_time: float, steps: Steps) -> Run:
@@ -248,10 +248,6 @@ def _found(arguments: KernelArguments, plan: Plan, result: Result, wall_time: fl
         mesh_times, mesh_states = _to_the_end(mesh_times, mesh_states, times[:good], out[:good])
     result, event, close = _watched(arguments, times[:good], result)
     good = min(good, result.samples)
-    gone = _vanishing(problem, times[:good], known_states[:good], mesh_times, mesh_states)
-    if gone is not None and (event is None or gone.time < event.time):
-        good = max(int(np.searchsorted(times[:good], gone.time, side="right")), 1)
-        result, event, close = result._replace(outcome=NO_LENGTH, reached=gone.time, samples=good), None, ()
     return Run(
         times[:good],
         out[:good],
@@ -266,24 +262,32 @@ def _found(arguments: KernelArguments, plan: Plan, result: Result, wall_time: fl
         mesh_states=mesh_states,
         stride=stride,
         reactions=reactions and reactions.first(good),
-        at=gone.name if gone is not None and result.outcome == NO_LENGTH else "",
     )
 
 
-def _vanishing(
-    problem: Problem, times: Floats, states: Floats, mesh_times: Floats, mesh_states: Floats
-) -> Vanishing | None:
-    """The first prescribed length that comes to zero, at the samples and the mesh up to the last of them.
-
-    `times` and `states` have shapes (samples,) and (samples, 2n), those of the mesh likewise.
-    """
-    if not (problem.is_constrained and len(times)):
-        return None
-    known = mesh_times <= times[-1]
-    every = np.append(times, mesh_times[known])
+def _while_lengths_last(problem: Problem, found: Run) -> Run:
+    """A run up to where the first prescribed length comes to zero, looked for at its samples and its mesh."""
+    if not (problem.is_constrained and len(found.times)):
+        return found
+    known = found.mesh_times <= found.times[-1]
+    every, states = found.times, found.states[:, : 2 * problem.degrees]
+    if known.any():
+        every, states = np.append(every, found.mesh_times[known]), np.vstack([states, found.mesh_states[known]])
     order = np.argsort(every, kind="stable")
-    return first_vanishing(
-        problem, every[order], np.vstack([states, mesh_states[known]])[order] if known.any() else states
+    gone = first_vanishing(problem, every[order], states[order])
+    if gone is None or (found.event is not None and found.event.time <= gone.time):
+        return found
+    count = max(int(np.searchsorted(found.times, gone.time, side="right")), 1)
+    return replace(
+        found,
+        times=found.times[:count],
+        states=found.states[:count],
+        reactions=found.reactions and found.reactions.first(count),
+        result=found.result._replace(outcome=NO_LENGTH, reached=gone.time, samples=count),
+        event=None,
+        held=None,
+        approaches=(),
+        at=gone.name,
     )
 
 

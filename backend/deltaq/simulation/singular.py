@@ -38,7 +38,10 @@ def vanishing_margin(problem: Problem, run: Run) -> str | None:
 
 
 def last_known(problem: Problem, run: Run) -> tuple[Floats, Floats, float]:
-    """The times and states (q, q̇) at which the run is known, and the length of its last step in seconds."""
+    """The times and states (q, q̇) at which the run is known, and the length of its last step in seconds.
+
+    The times have shape (states,), the states shape (states, 2n).
+    """
     width = 2 * problem.degrees
     times, states = run.times, run.states[:, :width]
     known = np.isfinite(states).all(axis=1) & (times <= run.result.reached)
