@@ -21,7 +21,7 @@ from ..language.floats import evaluate
 from ..language.parser import parse
 from ..language.tree import Node
 from ..mechanics.changes import change
-from ..mechanics.requests import inside
+from ..mechanics.requests import inside, require_bounds
 from ..model.modes import Modes, modes_of
 from ..model.observables import Observables
 from ..simulation.derivatives import accelerations
@@ -118,7 +118,7 @@ def _require_values(subject: Subject, request: BifurcationRequest) -> None:
     """Raises InputError where the parameter cannot have one of the outermost values."""
     for end, value in (("from", request.sweep.start), ("to", request.sweep.to)):
         try:
-            change(subject.scene, parameters={request.sweep.parameter: value})
+            require_bounds(change(subject.scene, parameters={request.sweep.parameter: value}))
         except InputError as error:
             raise type(error)(*(replace(one, pointer=f"/sweep/{end}") for one in error.problems)) from None
 

@@ -29,7 +29,7 @@ def inertia_problems(scene: Scene) -> Iterator[Problem]:
     """Bodies whose mass is not positive, and coordinates that move no mass of their own."""
     values = scene.stated_values
     yield from _varying(scene)
-    light = [problem for index, body in enumerate(scene.bodies) for problem in _light(index, body, values)]
+    light = [problem for _, problem in light_problems(scene, values)]
     if light:
         yield from light
         return
@@ -37,6 +37,17 @@ def inertia_problems(scene: Scene) -> Iterator[Problem]:
     dependent = [_dependent(matrix) for matrix in matrices]
     if matrices and all(dependent):
         yield from _singular(scene, min(dependent, key=len))
+
+
+def light_problems(scene: Scene, values: Point) -> Iterator[tuple[Body, Problem]]:
+    """Bodies whose mass is not positive, with values of parameters by name."""
+    for index, body in enumerate(scene.bodies):
+        yield from ((body, problem) for problem in _light(index, body, values))
+
+
+def names_of_mass(body: Body) -> frozenset[str]:
+    """What says how much mass a body has, and where, depends on."""
+    return frozenset[str]().union(*(part.names for _, part in _of_mass(body)))
 
 
 def moment_problems(scene: Scene) -> Iterator[Problem]:

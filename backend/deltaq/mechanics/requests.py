@@ -8,7 +8,8 @@ from contextlib import contextmanager
 from functools import lru_cache
 from typing import Protocol
 
-from ..errors import InputError
+from ..errors import InputError, SceneError
+from .bounds import value_problems
 from .changes import change
 from .document import read_scene
 from .initial import with_initial
@@ -76,14 +77,29 @@ class BegunScene(ChangedScene, Protocol):
 def changed_scene(asked: ChangedScene) -> Scene:
     """The scene that a request means, its changes applied. Raises InputError that points into the request."""
     scene, parameters = requested_scene(asked.scene, asked.parameters)
-    return change(scene, asked.given_guides, asked.freeze, parameters)
+    return _within_bounds(scene, change(scene, asked.given_guides, asked.freeze, parameters))
 
 
 def begun_scene(asked: BegunScene) -> Scene:
     """The scene that a request means, its changes applied and its motion begun where the request says."""
     scene, parameters = requested_scene(asked.scene, asked.parameters)
     begun = with_initial(scene, asked.given_initial, asked.freeze)
-    return change(begun, asked.given_guides, asked.freeze, parameters)
+    return _within_bounds(scene, change(begun, asked.given_guides, asked.freeze, parameters))
+
+
+def _within_bounds(scene: Scene, changed: Scene) -> Scene:
+    """The changed scene. Raises SceneError where its values are none that the scene could have been read with."""
+    if changed is not scene:
+        with inside("/scene"):
+            require_bounds(changed)
+    return changed
+
+
+def require_bounds(scene: Scene) -> None:
+    """Raises SceneError where values of a scene that reads well break a bound."""
+    problems = tuple(value_problems(scene))
+    if problems:
+        raise SceneError(*problems)
 
 
 def _named(identifier: str, parameters: Mapping[str, float]) -> tuple[Scene, Mapping[str, float]]:

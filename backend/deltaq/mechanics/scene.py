@@ -98,7 +98,7 @@ class Scene:
             return
         value = evaluate(event.restitution.tree, self.parameter_values)
         if not 0.0 <= value <= 1.0:
-            yield Problem("restitution-outside", pointer, parameters={"value": float(f"{value:g}")})
+            yield restitution_problem(pointer, value)
 
     def _guide_problems(self, pointer: str, guide: Guide) -> Iterator[Problem]:
         known = tuple(coordinate.name for coordinate in self.coordinates)
@@ -269,6 +269,11 @@ class Scene:
         things = (self.points, self.bodies, self.loads, self.guides, self.drawing)
         labels = {name: dict(label) for name, label in self.labels.items()}
         return Scene, (*fields, *things, labels, self.events, self.constraints)
+
+
+def restitution_problem(pointer: str, value: float) -> Problem:
+    """What is wrong with a coefficient of restitution that is not between 0 and 1."""
+    return Problem("restitution-outside", pointer, parameters={"value": float(f"{value:g}")})
 
 
 def names_of(

@@ -5,14 +5,12 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass, fields
 
-from ..errors import Parameter, Problem
+from ..errors import Problem
 from ..language.expression import Expression
-from ..language.floats import evaluate
-from ..language.spelling import spell_rate
 from ..language.tree import Rate, walk
 from .body_axes import body_axes_problems
+from .bounds import friction_bounds, start_of
 from .continuity import continuity_problems
-from .contributions import Friction
 from .definedness import definedness_problems
 from .homogeneity import SECOND, dimension_problems
 from .independence import gap_problems, independence_problems
@@ -37,7 +35,7 @@ def soundness_problems(scene: Scene) -> Iterator[Problem]:
     found = tuple(expressions(scene))
     yield from _idle_parameters(scene, found)
     yield from _units(scene, found)
-    yield from _negative_friction(scene)
+    yield from (each.problem for each in friction_bounds(scene, start_of(scene)))
     yield from moment_problems(scene)
     yield from body_axes_problems(scene)
     accelerated = tuple(_accelerations(found))
@@ -59,22 +57,6 @@ def expressions(scene: Scene) -> Iterator[Field]:
     units = {coordinate.name: coordinate.unit for coordinate in scene.coordinates}
     for index, guide in enumerate(scene.guides):
         yield Field(f"/guides/{index}/value", guide.value, dimension_of(units[guide.coordinate]))
-
-
-def _negative_friction(scene: Scene) -> Iterator[Problem]:
-    """Friction that would push, where the motion begins."""
-    values = scene.stated_values
-    values |= {spell_rate(c.name, 1): c.rate for c in scene.coordinates}
-    for index, load in enumerate(scene.loads):
-        for part in (part for part in (load.contributions(scene.places, scene.bodies)) if isinstance(part, Friction)):
-            for key, tree in (("force", part.force), ("static", part.static)):
-                if evaluate(tree, values) < 0.0:
-                    parameters: dict[str, Parameter] = {
-                        "name": load.name,
-                        "value": float(f"{evaluate(tree, values):g}"),
-                    }
-                    yield Problem("friction-negative", f"/loads/{index}/{key}", parameters=parameters)
-                    break
 
 
 def _fields(pointer: str, thing: object) -> Iterator[Field]:

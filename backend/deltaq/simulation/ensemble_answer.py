@@ -14,6 +14,8 @@ from ..contract.ensemble import LARGEST, Drawn, EnsembleRequest, Evenly, Variati
 from ..contract.reading import read
 from ..errors import Problem as Mistake
 from ..errors import RequestError, SceneError, escaped
+from ..language.spelling import spell_rate
+from ..mechanics.bounds import Bound, broken_bounds, start_of
 from ..mechanics.coordinate import LARGEST as LARGEST_INITIAL
 from ..mechanics.coordinate import too_large
 from ..mechanics.requests import begun_scene, inside
@@ -158,8 +160,46 @@ def varied_of(asked: EnsembleRequest, scene: Scene) -> Varied:
         table[:, places[name]] = column
     split = 2 * problem.degrees
     ensemble = Ensemble(problem, np.ascontiguousarray(table[:, :split]), np.ascontiguousarray(table[:, split:]))
+    _require_bounds(asked, scene, table, own, columns)
     _require_beginnings(scene, ensemble)
     return Varied(ensemble, dict(zip(asked.vary, columns, strict=True)))
+
+
+def _require_bounds(
+    asked: EnsembleRequest, scene: Scene, table: Floats, own: list[Floats], columns: list[Floats]
+) -> None:
+    """Raises RequestError for the first run whose values break a bound of the scene, at the value that does it.
+
+    `table` has shape (runs, quantities); `own` are the values of each quantity that varies, `columns` those of all.
+    """
+    keys, start = _keys(scene), start_of(scene)
+    for row, numbers in enumerate(table.tolist()):
+        for bound in broken_bounds(scene, start | dict(zip(keys, numbers, strict=True))):
+            raise RequestError(replace(bound.problem, pointer=_blamed(asked, bound, row, own, columns)))
+
+
+def _blamed(asked: EnsembleRequest, bound: Bound, row: int, own: list[Floats], columns: list[Floats]) -> str:
+    """Where the value stands that breaks a bound in a run; all that varies if it takes several."""
+    found = [i for i, name in enumerate(asked.vary) if _coordinate_of(name) in bound.names]
+    if len(found) != 1:
+        return "/vary"
+    (i,) = found
+    name, place = list(asked.vary)[i], int(np.flatnonzero(own[i] == columns[i][row])[0])
+    variation = asked.vary[name]
+    if isinstance(variation, Evenly):
+        return f"/vary/{escaped(name)}/{'to' if place else 'from'}"
+    return f"/vary/{escaped(name)}/{'normal' if isinstance(variation, Drawn) else place}"
+
+
+def _coordinate_of(name: str) -> str:
+    """The parameter or coordinate of a quantity, such as `initial.x.rate`."""
+    return name.split(".")[1]
+
+
+def _keys(scene: Scene) -> list[str]:
+    """How expressions spell each quantity, in the order of values, rates and parameters."""
+    free = [coordinate.name for coordinate in scene.free]
+    return [*free, *(spell_rate(name, 1) for name in free), *(parameter.name for parameter in scene.parameters)]
 
 
 def _require_beginnings(scene: Scene, ensemble: Ensemble) -> None:
