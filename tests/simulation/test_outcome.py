@@ -7,13 +7,24 @@ from typing import get_args
 import pytest
 
 from deltaq.simulation.kernels import motion
-from deltaq.simulation.outcome import JUDGED, NO_DIRECTION, OK, OUT_OF_REACH, Outcome, codes, outcome_of
+from deltaq.simulation.outcome import (
+    DRIVES,
+    HOLDS_LESS,
+    JUDGED,
+    NO_DIRECTION,
+    OK,
+    OUT_OF_REACH,
+    Outcome,
+    codes,
+    outcome_of,
+)
 from deltaq.vocabulary import RungStatus
 
 REPORTED = [
     *(motion.FINE, motion.STEP_LIMIT, motion.SINGULAR, motion.NOT_FINITE, motion.TOO_LARGE, motion.STEP_UNDERFLOW),
     *(motion.CANCELLED, motion.NEWTON_FAILED, motion.STIFF, motion.EVENT, motion.HELD, motion.LOCKED),
     *(motion.MANY_EVENTS, motion.UNSETTLED, NO_DIRECTION, OUT_OF_REACH),
+    *(DRIVES, HOLDS_LESS),
 ]
 
 

@@ -24,8 +24,10 @@ from itertools import combinations
 
 import symengine as se
 
+from ..language.tree import Node
 from ..mechanics.contributions import Friction
 from ..mechanics.jumps import frictions_of
+from ..mechanics.lasting_signs import LastingSigns
 from ..mechanics.scene import Scene
 from .compiled import Compiled, compile_expressions
 from .equations import Equations, equations, guided_into
@@ -60,7 +62,8 @@ class Modes:
     switches, contacts), then an offset ε of every watched value. A switch is what changes its sign where a force jumps:
     first those with a rate, w, then those of places alone, s with w = ṡ, of which there are `pins`. Watched are, in
     this order: the scene's other events, kinks (σ s), frictions and switches (σ w or σ s while slipping, F₀ − λ; then
-    F₀ + λ, with F₀ = 1 of a switch), contacts (g, or λ at rest). `facts` gives for each row a, w, γ and the direction
+    F₀ + λ, with F₀ = 1 of a switch), contacts (g, or λ at rest), and F and F₀ of frictions, if these might become
+    negative, `bounds` being the numbers of the frictions. `facts` gives for each row a, w, γ and the direction
     of its reaction; for each friction and switch F₀; for each contact g, ∂g/∂t, e; the values s of all kinks, then of
     pins; λ of every row; at last for each friction the force R as it is, −σF while slipping, λ while sticking.
     `coupled` are pairs of rows of which a force has a product of signs, so that nothing tells what both hold together.
@@ -76,6 +79,7 @@ class Modes:
     switches: tuple[str, ...]
     pins: int
     coupled: frozenset[tuple[int, int]]
+    bounds: tuple[int, ...]
 
     @cached_property
     def bounded(self) -> int:
@@ -95,6 +99,11 @@ class Modes:
     @cached_property
     def watched(self) -> int:
         """How many values are watched."""
+        return self.first_bound + len(self.bounds)
+
+    @cached_property
+    def first_bound(self) -> int:
+        """The first watched value that is a friction force and not negative."""
         return len(self.ending) + len(self.kinks) + 2 * self.bounded + len(self.contacts)
 
     @cached_property
@@ -177,6 +186,7 @@ def _made_once(found_by: ByMechanics) -> Modes | None:
         tuple(map(found.signs.spelt, found.switches)),
         found.pins,
         frozenset(found.coupled()),
+        tuple(k for k, _ in found.of_bounds),
     )
 
 
@@ -191,6 +201,16 @@ def in_modes(scene: Scene, expressions: Sequence[Expr]) -> tuple[tuple[Expr, ...
     """
     found = _Assembly(scene)
     return found.symbols.inputs, [found.in_motion(each) for each in expressions]
+
+
+def enumerated_bounds(scene: Scene, frictions: Sequence[Friction]) -> Iterator[tuple[int, Node]]:
+    """F and F₀ of frictions that might become negative, with the numbers of the frictions."""
+    moving = {coordinate.name for coordinate in scene.coordinates} | {"t"}
+    signs = LastingSigns(moving, {one.name for one in scene.parameters if one.positive} | {"t", "pi"})
+    for k, part in enumerate(frictions):
+        for tree in dict.fromkeys((part.force, part.static)):
+            if not signs.keeps(tree):
+                yield k, tree
 
 
 def has_switches(scene: Scene) -> bool:
@@ -223,7 +243,8 @@ class _Assembly:
         )
         power = self._smooth(self.plain.power)
         self.arrows = {name: tuple(map(self._smooth, each)) for name, each in self.plain.arrows.items()}
-        limits = [self.signs.smooth(guided_into(scene, to_symengine(part.static, symbols))) for part in self.frictions]
+        limits = [self._of_friction(part.static) for part in self.frictions]
+        self.of_bounds = [(k, self._of_friction(tree)) for k, tree in enumerated_bounds(scene, self.frictions)]
         of_rates, of_places = self.signs.jumping(forcing)
         self.switches, self.pins = [*of_rates, *of_places], len(of_places)
         self.kinks = [i for i in range(len(self.signs.sigmas)) if i not in self.switches]
@@ -234,6 +255,7 @@ class _Assembly:
         self.bounded = [*self._sigmas_of_friction, *own]
         self.flags = [self._parameter() for _ in (*self.bounded, *self.contacts)]
         watched = len(self.ending) + len(self.kinks) + 2 * len(self.bounded) + len(self.contacts)
+        watched += len(self.of_bounds)
         self.offsets = [self._parameter() for _ in range(watched)]
         ordered = (*(self.signs.sigmas[i] for i in self.kinks), *self.bounded, *self.flags, *self.offsets)
         names = tuple(str(each) for each in ordered)
@@ -250,6 +272,10 @@ class _Assembly:
     def _parameter(self) -> Expr:
         self._made += 1
         return se.Symbol(f"mode{self._made}")
+
+    def _of_friction(self, tree: Node) -> Expr:
+        """F or F₀, with signs as parameters."""
+        return self.signs.smooth(guided_into(self.scene, to_symengine(tree, self.plain.symbols)))
 
     def _slip(self, part: Friction, symbols: Symbols) -> Expr:
         c = (to_symengine(part.coordinate, symbols),)
@@ -382,6 +408,8 @@ class _Assembly:
         for j, index in enumerate(self.contacts, len(self.bounded)):
             flag = self.flags[j]
             yield (ONE - flag) * self.plain.events[index] + flag * self.reactions[j] + next(offsets)
+        for _, force in self.of_bounds:
+            yield self._between(force) + next(offsets)
 
     def _level(self, k: int, row: Row) -> Expr:
         """What changes its sign where a friction or a switch turns."""
@@ -406,8 +434,7 @@ class _Assembly:
     def _friction_forces(self) -> Iterator[Expr]:
         """R = φ λ − (1 − φ) σ F"""
         for k, part in enumerate(self.frictions):
-            force = self.signs.smooth(guided_into(self.scene, to_symengine(part.force, self.plain.symbols)))
-            flag = self.flags[k]
+            flag, force = self.flags[k], self._of_friction(part.force)
             yield flag * self.reactions[k] - (ONE - flag) * self.bounded[k] * self._between(force)
 
 

@@ -19,17 +19,18 @@ from ..model.modes import Modes
 from .audited import AuditedParts, mesh_of
 from .constraints import Reactions
 from .event import Event
+from .friction_bounds import require_holding, require_opposing
 from .integration import Flag, Workspace
 from .kernels.loop import Result
 from .kernels.motion import FINE, MANY_EVENTS, NOT_FINITE, SINGULAR, STEP_LIMIT, UNSETTLED
 from .method import Method
 from .mode_state import TOUCHING, ModeState
-from .outcome import CHATTERS, NO_DIRECTION, OUT_OF_REACH, SLIDES, WITHIN_STEPS
+from .outcome import CHATTERS, DRIVES, HOLDS_LESS, NO_DIRECTION, OUT_OF_REACH, SLIDES, WITHIN_STEPS
 from .pieces import Pieces
 from .problem import Floats, Problem
 from .run import Mesh, Run, Steps, run
 from .sliding import SlidingError
-from .transitions import NoDirectionError, Transition, UnsettledError, begun, passed, with_offsets
+from .transitions import BoundError, NoDirectionError, Transition, UnsettledError, begun, passed, with_offsets
 
 MOST = 5000  # events in one run
 AT_ONCE = 50  # events at the same time, by rounding
@@ -183,6 +184,8 @@ def _behind(current: ModeState, event: Event, record: _Record, span: float) -> M
     """The state behind an event, or why there is none that the run goes on from."""
     try:
         behind = _next(current, event, record)
+    except BoundError as broken:
+        return _End(DRIVES if broken.drives else HOLDS_LESS, current.modes.frictions[broken.friction])
     except SlidingError as sliding:
         return _End(SLIDES, current.modes.name_of(sliding.row))
     except tuple(OUTCOMES) as unknown:
@@ -245,9 +248,11 @@ def _next(current: ModeState, event: Event, record: _Record) -> ModeState | None
     """The state behind an event, None if it exceeds all numbers; its name is recorded, with the energy that it took."""
     n = len(current.q)
     before = current.at(event.time, event.state[:n].copy(), event.state[n : 2 * n].copy())
+    require_opposing(before)
     after, name, kind = passed(before, event.index)
     if not (before.is_finite and after.is_finite):
         return None
+    require_holding(after)
     loss = before.kinetic - after.kinetic if kind in ("impact", "rest", "slide") else 0.0
     reached = record.moved(event, after.time, n)
     record.work += (float(event.state[-1]) if event.state.size > 2 * n else 0.0) - loss

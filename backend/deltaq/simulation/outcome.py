@@ -28,6 +28,7 @@ from .kernels.motion import (
 Number: TypeAlias = str | int | float
 # No kernel says so: of runs that go on behind events; of those whose steps are too short to come anywhere; of rods.
 NO_DIRECTION, OUT_OF_REACH, SLIDES, CHATTERS, WITHIN_STEPS, NO_LENGTH = (UNSETTLED + k for k in range(1, 7))
+DRIVES, HOLDS_LESS = UNSETTLED + 7, UNSETTLED + 8  # of friction
 
 JUDGED = frozenset({"ok", "event", "stopped", "guide_jumps", "horizon_reached", "tolerance_missed"})
 
@@ -71,6 +72,8 @@ _WORDS: Mapping[int, tuple[Status, str]] = MappingProxyType(
         CHATTERS: ("unresolved", "switches_to_and_fro"),
         WITHIN_STEPS: ("step_limit", "switches_within_steps"),
         NO_LENGTH: ("singular_constraints", "length_vanishes"),
+        DRIVES: ("unresolved", "friction_negative"),
+        HOLDS_LESS: ("unresolved", "static_below_kinetic"),
     }
 )
 

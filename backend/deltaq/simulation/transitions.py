@@ -72,6 +72,14 @@ class NoDirectionError(Exception):
         self.contact = contact
 
 
+class BoundError(Exception):
+    """A friction that would drive what slips, or would have to hold it with less than it slips against."""
+
+    def __init__(self, friction: int, *, drives: bool) -> None:
+        super().__init__(friction)
+        self.friction, self.drives = friction, drives
+
+
 def with_signs(problem: Problem, modes: Modes) -> Problem:
     """The problem with all signs positive and nothing held."""
     return replace(problem, parameters=(*problem.parameters, *_empty(modes).parameters))
@@ -114,9 +122,11 @@ def least_sizes(current: ModeState) -> tuple[float, float]:
 def passed(current: ModeState, watched: int) -> ModeEvent:
     """The state behind an event of a watched value that goes on, the name of what it happened to, and its kind.
 
-    Its offsets are still those from before (`with_offsets`).
+    Its offsets are still those from before (`with_offsets`). Raises BoundError where friction becomes negative.
     """
     modes, ending, mode = current.modes, len(current.modes.ending), current.mode
+    if watched >= modes.first_bound:
+        raise BoundError(modes.bounds[watched - modes.first_bound], drives=True)
     place = watched - ending
     if place < len(modes.kinks):
         contact = _contact_before(current, lambda facts: facts.kinks[place], mode.kinks[place])
@@ -245,6 +255,7 @@ def _at_zero(current: ModeState, value: float, rate: float, bend: float) -> Mode
     late = 2.0 * value / (rate - math.sqrt(square)) if rate < 0.0 and square >= 0.0 else 0.0
     if not 0.0 < late < LATE * current.problem.t_end:
         return current
+    late = min(late, current.time)  # nothing is before the beginning
     a = current.accelerations
     q, v = current.q - late * (current.v - 0.5 * late * a), current.v - late * a
     return current.at(current.time - late, q, v)
@@ -455,7 +466,7 @@ def with_offsets(current: ModeState) -> ModeState:
     of_rates, of_places = HARDLY * current.size_of_rates, ROUNDING * current.size_of_places
     offsets = []
     for place, value in enumerate(values):
-        if place >= first and mode.flags[_row_watched(modes, place)]:
+        if place >= modes.first_bound or (place >= first and mode.flags[_row_watched(modes, place)]):
             room = HARDLY * current.size_of_forces
         else:
             room = of_rates if first <= place < pins else of_places
