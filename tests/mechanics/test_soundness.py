@@ -321,3 +321,34 @@ DIMENSIONS = [
 def test_dimensions(text: str, unit: str, terms: tuple[str, ...]) -> None:
     problems = dimension_problems(parse(text, NAMES), dimension_of(unit), KNOWN)
     assert tuple(problem.parameters["term"] for problem in problems) == terms
+
+
+@pytest.mark.parametrize(
+    ("gap", "part"),
+    [
+        ("x^3", "x^3"),
+        ("x^2", "x^2"),
+        ("2*x^3", "x^3"),
+        ("-(x - l)^3/l", "(x - l)^3"),
+        ("x^(3/2)", "x^(3/2)"),
+        ("x^(1/3)", "x^(1/3)"),
+        ("sqrt(x)", "sqrt(x)"),
+        ("l*sqrt(x + l)", "sqrt(x + l)"),
+        ("x", None),
+        ("x*l^2", None),
+        ("l^3/l^2 - x", None),
+        ("x/sqrt(l)", None),
+        ("l - sqrt(x^2 + l^2)/2", None),
+        ("x^1", None),
+        ("x*exp(x/l)", None),
+    ],
+)
+def test_gaps_without_a_gradient_where_they_close_are_refused(gap: str, part: str | None) -> None:
+    event = {"name": "wall", "value": gap, "then": "bounce", "restitution": "1/2"}
+    places = [{"name": "x", "unit": "m", "value": 1.0}, {"name": "phi", "unit": "rad"}]
+    _, problems = examine(document(coordinates=places, events=[event]))
+    found = [each for each in problems if each.severity == "error"]
+    assert [each.code for each in found] == ([] if part is None else ["bounce-without-gradient"])
+    for each in found:
+        assert (each.pointer, each.parameters["part"]) == ("/events/0/value", part)
+        assert gap[each.offset : each.offset + each.length] == part

@@ -14,6 +14,7 @@ from ..errors import Problem
 from ..language.expression import Expression
 from ..language.floats import evaluate
 from ..language.gradients import gradient
+from ..language.tree import Call, Negation, Node, Power, Product, Quotient
 from .constraints.distance import DistanceConstraint
 from .dependence import dependence_problems, random_points
 from .loads.friction import DryFriction
@@ -34,9 +35,46 @@ def gap_problems(scene: Scene) -> Iterator[Problem]:
     for index, event in enumerate(scene.events):
         if event.bounces and not event.value.rates and _is_still(scene, event.value):
             yield Problem("bounce-without-coordinates", f"/events/{index}/value")
+        elif event.bounces and (flat := flat_part(event.value.tree, scene)) is not None:
+            place, text = flat.span, event.value.text
+            told = {"part": text[place.offset : place.offset + place.length][:80]}
+            yield Problem("bounce-without-gradient", f"/events/{index}/value", place.offset, place.length, told)
     for index, load in enumerate(scene.loads):
         if isinstance(load, DryFriction) and _is_still(scene, load.coordinate):
             yield Problem("friction-without-coordinates", f"/loads/{index}/coordinate")
+
+
+def flat_part(gap: Node, scene: Scene) -> Node | None:
+    """A factor of a gap that is a power of a gap itself, other than the first, or a root: y^3, sqrt(y), 2*y^2*x.
+
+    Where it closes its gradient is zero, or has no value: the impact along it has no direction, or an even power does
+    not even change its sign.
+    """
+    moving = {coordinate.name for coordinate in scene.coordinates}
+    return next((part for part in _factors(gap) if _is_flat(part) and Expression("", part).names & moving), None)
+
+
+def _factors(gap: Node) -> Iterator[Node]:
+    match gap:
+        case Product(factors=factors):
+            yield from (each for factor in factors for each in _factors(factor))
+        case Quotient(numerator=above):
+            yield from _factors(above)
+        case Negation(operand=operand):
+            yield from _factors(operand)
+        case _:
+            yield gap
+
+
+def _is_flat(part: Node) -> bool:
+    """Whether it is zero where its base is, and not as steep."""
+    match part:
+        case Call(function="sqrt"):
+            return True
+        case Power(exponent=exponent):
+            power = evaluate(exponent, {}) if not Expression("", exponent).names else math.nan
+            return power > 0.0 and power != 1.0
+    return False
 
 
 def _is_still(scene: Scene, value: Expression) -> bool:
