@@ -2286,6 +2286,12 @@ export interface components {
              */
             conditions: components["schemas"]["Formula"][];
             /**
+             * Contacts
+             * @description events between whose impacts it holds, and as long as these contacts do not rest
+             * @default []
+             */
+            contacts: string[];
+            /**
              * Step
              * @description id of the step that shows it
              * @example noether:1

@@ -10,9 +10,12 @@ from tests.simulation.scenes import scene
 from deltaq.derivation.conservation import cyclic, is_energy, jacobi_energy, jacobi_energy_rate, reduction
 from deltaq.derivation.equilibria import free_coordinates
 from deltaq.derivation.system import System
+from deltaq.homework.statement import task_document
+from deltaq.homework.workbook import Workbook
 from deltaq.mechanics.document import read_scene
 from deltaq.mechanics.library import load_scene
 from deltaq.mechanics.writing import write_scene
+from deltaq.narration.derive import derive_request
 
 
 def test_cyclic_coordinates() -> None:
@@ -120,3 +123,63 @@ def test_routh_function_of_the_heavy_top_has_two_momenta() -> None:
 def test_no_routh_function_without_something_left_to_move() -> None:
     assert reduction(System(particle(["x"], {}, ["x", "0"]))) is None
     assert reduction(System(load_scene("pendulum"))) is None
+
+
+def thrown(restitution: str, gap: str) -> dict[str, object]:
+    """A ball thrown over a floor."""
+    return {
+        "id": "thrown",
+        "coordinates": [{"name": "x", "rate": 1.0}, {"name": "y", "value": 1.0}],
+        "parameters": [{"name": "m"}, {"name": "g"}, {"name": "e", "value": 0.8, "positive": False}],
+        "bodies": [{"name": "ball", "kind": "particle", "mass": "m", "position": ["x", "y"]}],
+        "loads": [{"name": "weight", "kind": "gravity", "acceleration": ["0", "-g"]}],
+        "events": [{"name": "floor", "value": gap, "then": "bounce", "restitution": restitution}],
+    }
+
+
+FLOOR = ("floor",)
+
+
+@pytest.mark.parametrize(
+    ("restitution", "gap", "momentum", "energy"),
+    [
+        pytest.param("e", "y", (), FLOOR, id="a loss: the energy only between impacts"),
+        pytest.param("1", "y", (), (), id="nothing lost: both throughout"),
+        pytest.param("1", "y - sin(t)/10", (), FLOOR, id="a table that moves feeds energy in"),
+        pytest.param("1", "y - x/10", FLOOR, (), id="a slope takes momentum"),
+        pytest.param("0", "2 - sqrt(x^2 + y^2)", FLOOR, FLOOR, id="a string"),
+    ],
+)
+def test_between_which_impacts_quantities_are_conserved(
+    restitution: str, gap: str, momentum: tuple[str, ...], energy: tuple[str, ...]
+) -> None:
+    found = derive_request({"scene": thrown(restitution, gap), "lang": "en"})
+    quantities = (each for each in found["result"]["conserved"] if each["kind"] != "symmetry")
+    told = {each["kind"]: tuple(each.get("contacts", ())) for each in quantities}
+    assert told == {"momentum": momentum, "energy": energy}
+    texts = {step["rule"]: step["text"] for chapter in found["chapters"] for step in chapter["steps"]}
+    for rule, contacts in (("cyclic-coordinate", momentum), ("jacobi-energy", energy)):
+        assert ("as long as no contact acts" in texts[rule]) is bool(contacts)
+
+
+@pytest.mark.parametrize(
+    ("scene", "contact"), [("catching-pendulum", "taut"), ("bouncing-ball", "impact"), ("pendulum", None)]
+)
+@pytest.mark.parametrize(("language", "words"), [("en", "as long as no contact acts"), ("de", "solange kein Kontakt")])
+def test_all_that_impacts_of_the_library_change_is_told_so(
+    scene: str, contact: str | None, language: str, words: str
+) -> None:
+    answer = derive_request({"scene": scene, "lang": language})
+    quantities = answer["result"]["conserved"]
+    assert quantities
+    assert {tuple(each.get("contacts", ())) for each in quantities} == ({(contact,)} if contact else {()})
+    steps = {step["id"]: step["text"] for chapter in answer["chapters"] for step in chapter["steps"]}
+    assert all((words in steps[each["step"]]) is bool(contact) for each in quantities)
+
+
+def test_the_task_says_between_which_impacts() -> None:
+    sheet = Workbook(load_scene("catching-pendulum"))
+    wanted = [each for each in sheet.tasks if each.quantity.kind == "conserved"]
+    assert wanted
+    for language, words in (("en", "between impacts"), ("de", "zwischen Stößen")):
+        assert all(words in str(task_document(each, sheet, language)["statement"]) for each in wanted)

@@ -100,6 +100,9 @@ class ConservedQuantity(Sum):
     generator: Generator
     meaning: str = Field(description="what the generator does in space, in a word", examples=["rotation-z"])
     conditions: tuple[Formula, ...] = Field(description="equations between parameters on which it rests")
+    contacts: tuple[str, ...] = Field(
+        (), description="events between whose impacts it holds, and as long as these contacts do not rest"
+    )
     step: str = Field(description="id of the step that shows it", examples=["noether:1"])
 
 

@@ -7,6 +7,7 @@ Source: Pfeiffer, Glocker, Multibody Dynamics with Unilateral Contacts, ch. 4 an
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from itertools import combinations
 
@@ -16,6 +17,7 @@ from ..language.display import size
 from ..language.memory import cached_method
 from ..mechanics.contributions import Friction
 from ..mechanics.event import Event
+from .generator import Generator
 from .matrix_form import forcing, mass_matrix
 from .multipliers import LONGEST, MOST_COORDINATES, MOST_GIVEN, MOST_LEFT, inverse_of, simplified
 from .system import System
@@ -74,6 +76,32 @@ def slopes(system: System, event: Event) -> dict[str, sp.Expr]:
     """∂g/∂qᵢ of the coordinates that change the gap."""
     found = {q: system.derivative(gap(system, event), system.q(q)) for q in system.free}
     return {q: slope for q, slope in found.items() if slope != 0}
+
+
+def contacts_along(system: System, shifts: Mapping[str, sp.Expr]) -> tuple[str, ...]:
+    """The contacts whose impulses along ∂g/∂q change Σ ξᵢ ∂L/∂q̇ᵢ, ξ being `shifts`: the gap changes along ξ."""
+
+    def is_met(event: Event) -> bool:
+        along = slopes(system, event)
+        return not system.is_zero(sp.Add(*(shift * along.get(q, system.zero) for q, shift in shifts.items())))
+
+    return tuple(event.name for event in bouncing(system) if is_met(event))
+
+
+def contacts_with_losses(system: System) -> tuple[str, ...]:
+    """The contacts that change the energy: e is not 1, or they move by themselves."""
+
+    def changes(event: Event) -> bool:
+        return not (system.is_zero(1 - restitution(system, event)) and system.is_zero(moving_term(system, event)))
+
+    return tuple(event.name for event in bouncing(system) if changes(event))
+
+
+def contacts_of(system: System, generator: Generator) -> tuple[str, ...]:
+    """The contacts between whose impacts the quantity of a generator is conserved."""
+    along = contacts_along(system, generator.shifts)
+    losing = () if generator.time == 0 else contacts_with_losses(system)
+    return tuple(event.name for event in bouncing(system) if event.name in (*along, *losing))
 
 
 def moving_term(system: System, event: Event) -> sp.Expr:

@@ -20,7 +20,7 @@ from .displacement import meaning
 from .equilibria import Search
 from .formula import Explicit, Term
 from .generator import Generator, Symmetry, solved
-from .impacts import Contact, Sticking, contacts, sticking
+from .impacts import Contact, Sticking, contacts, contacts_of, sticking
 from .linearization import Linearization
 from .matrix_form import forcing, left_side, mass_matrix
 from .multipliers import multipliers
@@ -50,7 +50,8 @@ class Conserved:
     """A quantity that does not change along the motion: a momentum, the Jacobi energy, or that of another symmetry.
 
     `meaning` says in a word what its generator does, `step` is the id of the step that shows it. `special` holds the
-    parameters by others or by a number, where it is conserved for these only.
+    parameters by others or by a number, where it is conserved for these only; `contacts` those between whose impacts it
+    is.
     """
 
     kind: str
@@ -60,6 +61,7 @@ class Conserved:
     meaning: str
     step: str
     special: Mapping[sp.Symbol, sp.Expr] = field(default_factory=dict)
+    contacts: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -286,7 +288,7 @@ def _conserved(system: System) -> list[Conserved]:
     for number, each in enumerate(symmetries_of(system), 1):
         word, special = meaning(system, each.generator).word, solved(each.conditions, system)
         found.append(Conserved("symmetry", "", each.value, each.generator, word, f"noether:{number}", special))
-    return found
+    return [replace(each, contacts=contacts_of(system, each.generator)) for each in found]
 
 
 def _momentum(system: System, coordinate: str) -> Conserved:

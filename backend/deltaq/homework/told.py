@@ -8,7 +8,7 @@ from types import MappingProxyType
 import sympy as sp
 
 from ..derivation.generator import Generator
-from ..derivation.impacts import gap, restitution
+from ..derivation.impacts import contacts_along, contacts_with_losses, gap, restitution
 from ..derivation.optional import motions_of
 from ..language.latex_printer import Typography, latex
 from ..narration.catalog import text
@@ -50,6 +50,11 @@ def _conserved(task: Task, workbook: Workbook, language: str) -> Texts:
     named = label(coordinate, workbook.scene, language)
     kind = "momentum" if coordinate else "energy"
     what = text(language, f"homework.conserved.{kind}", coordinate=named)
+    model = workbook.solution.model
+    met = contacts_along(model, {coordinate: sp.Integer(1)}) if coordinate else contacts_with_losses(model)
+    if met:
+        names = joined(", ", (label(name, workbook.scene, language) for name in met))
+        what = text(language, "homework.conserved.between", what=what, contacts=names)
     return {"number": formula(task.subject), "what": what}
 
 

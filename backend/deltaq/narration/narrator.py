@@ -82,6 +82,9 @@ class Narrator:
         sentence = self._sentence(
             f"rules.steps.{step.rule}.{step.about.get('outcome') or 'text'}", self._names(step.about)
         )
+        if "contacts" in step.about:
+            between = self._sentence("rules.between-impacts", self._names(step.about))
+            sentence = joined(" ", (sentence, between))
         return {
             "id": step.id,
             "rule": step.rule,

@@ -107,6 +107,7 @@ class _Sums:
             "meaning": quantity.meaning,
             "conditions": [self.write.equation(*pair) for pair in quantity.special.items()],
             "step": quantity.step,
+            **({"contacts": list(quantity.contacts)} if quantity.contacts else {}),
         }
 
     def _integral(self, quantity: Conserved) -> Document:

@@ -5,7 +5,10 @@ Source: Goldstein, Poole, Safko, Classical Mechanics, 3rd ed., §2.6; Landau, Li
 
 from __future__ import annotations
 
+import sympy as sp
+
 from ..formula import Explicit, Named, Partial, Quantity
+from ..impacts import contacts_along
 from ..step import Relation, Step
 from ..system import System
 
@@ -23,4 +26,10 @@ def apply(system: System, coordinate: str) -> Step:
         Relation((outside, nothing)),
         Relation((momentum, Partial(lagrangian, system.rate(coordinate)), Explicit(momentum.value))),
     )
-    return Step(RULE, coordinate, lines, (), {"coordinate": coordinate})
+    return Step(RULE, coordinate, lines, (), {"coordinate": coordinate} | _between(system, coordinate))
+
+
+def _between(system: System, coordinate: str) -> dict[str, str]:
+    """The contacts that act along the coordinate: only between their impacts is nothing else that does."""
+    found = contacts_along(system, {coordinate: sp.Integer(1)})
+    return {"contacts": ", ".join(found)} if found else {}

@@ -10,6 +10,7 @@ from collections.abc import Iterator
 
 from ..conservation import is_energy, jacobi_energy, jacobi_energy_rate, keeps_energy, power
 from ..formula import Explicit, Formula, Named, Partial, Plus, Quantity, Rate, Term, Times, minus
+from ..impacts import contacts_with_losses
 from ..step import Relation, Step
 from ..system import System
 
@@ -29,7 +30,8 @@ def apply(system: System) -> Step:
         Relation((energy, whole), "=" if is_energy(system) else "≠"),
     )
     about = {"outcome": _outcome(system), "reason": ", ".join(_reasons(system))}
-    return Step(RULE, "", lines, system.body_sources, about)
+    met = contacts_with_losses(system) if system.is_zero(jacobi_energy_rate(system)) else ()
+    return Step(RULE, "", lines, system.body_sources, about | ({"contacts": ", ".join(met)} if met else {}))
 
 
 def _reasons(system: System) -> Iterator[str]:

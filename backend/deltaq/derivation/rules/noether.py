@@ -28,6 +28,7 @@ from ..formula import (
     minus,
 )
 from ..generator import Symmetry, solved
+from ..impacts import contacts_of
 from ..step import Relation, Step
 from ..system import System
 
@@ -59,7 +60,15 @@ def _about(system: System, symmetry: Symmetry, number: int) -> dict[str, str]:
     if symmetry.conditions:
         outcome += "-special"
     word = f"{what.word}-of" if what.bodies else what.word
-    about = {"outcome": outcome, "symmetry": word, "integral": word, "number": str(number), "coordinate": moved}
+    met = contacts_of(system, symmetry.generator)
+    between = {"contacts": ", ".join(met)} if met else {}
+    about = between | {
+        "outcome": outcome,
+        "symmetry": word,
+        "integral": word,
+        "number": str(number),
+        "coordinate": moved,
+    }
     return {**about, "place": ", ".join(what.bodies)} if what.bodies else about
 
 
