@@ -9231,6 +9231,11 @@ export interface components {
              * @description estimated error of the time in seconds; null where it is not known
              */
             error: number | null;
+            /**
+             * Together
+             * @description further contacts that pushed at that time, one after the other in this order
+             */
+            together: string[];
         };
         /**
          * TwinRuns

@@ -249,3 +249,31 @@ def test_a_wrong_impulse_is_not_verified(monkeypatch: pytest.MonkeyPatch) -> Non
     _, derivation = derived(on_line(events=[event]))
     (step,) = (step for step in derivation.steps() if step.rule == "impact-law")
     assert not step.verified
+
+
+def wall(name: str, gap: str) -> dict[str, object]:
+    return {"name": name, "value": gap, "then": "bounce", "restitution": "e"}
+
+
+@pytest.mark.parametrize(
+    ("walls", "is_told"),
+    [
+        pytest.param([wall("left", "x + 1")], False, id="one contact"),
+        pytest.param([wall("left", "x + 1"), wall("right", "2 - y")], True, id="two contacts"),
+    ],
+)
+@pytest.mark.parametrize(
+    ("language", "sentence"),
+    [
+        ("en", "Several contacts that close at once push one after the other"),
+        ("de", "Mehrere Kontakte, die sich zugleich schließen, stoßen nacheinander"),
+    ],
+)
+def test_what_several_contacts_do_at_once_is_told(
+    walls: Sequence[Mapping[str, object]], language: str, sentence: str, *, is_told: bool
+) -> None:
+    names = {"format": 1, "id": "contact", "title": "contact", "dimension": 2}
+    found = derive_request({"scene": {**names, **on_line(events=walls)}, "lang": language})
+    steps = [step for chapter in found["chapters"] for step in chapter["steps"] if step["rule"] == "impact-law"]
+    assert len(steps) == len(walls)
+    assert all((sentence in step["text"]) is is_told for step in steps)

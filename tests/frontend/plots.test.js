@@ -129,7 +129,7 @@ for (const [name, ranges, rows] of /** @type {[string, number[], string[][]][]} 
   });
 
 test("events behind which the motion went on are dotted lines, as long as they can be told apart", () => {
-  const impact = (/** @type {number} */ time) => ({ name: "floor", time, kind: /** @type {const} */ ("impact"), loss: 1, error: null });
+  const impact = (/** @type {number} */ time) => ({ name: "floor", time, kind: /** @type {const} */ ("impact"), loss: 1, error: null, together: [] });
   const at = (/** @type {number} */ count) => marksOf({ ...trajectory, events: Array.from({ length: count }, (_, i) => impact(i / 100)) }, [], palette);
   assert.deepEqual(at(3).map(({ x0, x1, line }) => [x0, x1, line.dash]), [[0, 0, "dot"], [0.01, 0.01, "dot"], [0.02, 0.02, "dot"]]);
   assert.deepEqual([marksOf(trajectory, [], palette), at(100)], [[], []]);

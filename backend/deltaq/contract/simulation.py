@@ -147,6 +147,9 @@ class TransitionAnswer(Answer):
     kind: TransitionKind = Field(description="what happened")
     loss: float = Field(description="energy that it took, in J")
     error: float | None = Field(description="estimated error of the time in seconds; null where it is not known")
+    together: list[str] = Field(
+        description="further contacts that pushed at that time, one after the other in this order"
+    )
 
 
 class FrictionAnswer(Answer):

@@ -139,7 +139,14 @@ def _transitions(found: tuple[Transition, ...]) -> list[Document]:
     """The events behind which the motion went on; their times are rounded to what their errors support."""
     times = _times([each.time for each in found], [each.error for each in found])
     return [
-        {"name": each.name, "time": time, "kind": each.kind, "loss": short(each.loss, 6), "error": error}
+        {
+            "name": each.name,
+            "time": time,
+            "kind": each.kind,
+            "loss": short(each.loss, 6),
+            "error": error,
+            "together": list(each.together),
+        }
         for each, (time, error) in zip(found, times, strict=True)
     ]
 

@@ -17,7 +17,7 @@ from .integration import Flag
 from .kernels.motion import CANCELLED, LOCKED, MANY_EVENTS, NEWTON_FAILED, SINGULAR, STEP_LIMIT, STIFF, UNSETTLED
 from .method import Method
 from .mode_state import ModeState
-from .outcome import CHATTERS, NO_DIRECTION, NO_LENGTH, OUT_OF_REACH, SLIDES
+from .outcome import CHATTERS, NO_DIRECTION, NO_LENGTH, OUT_OF_REACH, SLIDES, UNDETERMINED
 from .pieces import BlindStretch, Pieces
 from .problem import Floats, Problem
 from .refinement import FINER, LAST, Refinement
@@ -32,7 +32,8 @@ ROUNDS = 4  # of shorter steps where a run was blind
 BY_EVENTS = 0.5  # of the difference, where a motion goes on behind events
 BY_IMPACTS = 1.0  # times the differences of runs that are shaken otherwise
 UNSOLVED = (NEWTON_FAILED, LOCKED, SINGULAR, NO_LENGTH)
-UNCLEAR = (UNSETTLED, NO_DIRECTION, SLIDES, CHATTERS, MANY_EVENTS)  # how the motion goes on behind an event
+# How the motion goes on behind an event.
+UNCLEAR = (UNSETTLED, NO_DIRECTION, UNDETERMINED, SLIDES, CHATTERS, MANY_EVENTS)
 SAME_EVENT = 1e-4  # of the time: of events that pile up not all runs follow as many
 SAME_PLACE = 1e-6  # of the time: runs that end so close to each other end at the same place
 ORDERS = 4  # more for each finer run with steps that are given

@@ -20,17 +20,18 @@ from .audited import AuditedParts, mesh_of
 from .constraints import Reactions
 from .event import Event
 from .friction_bounds import require_holding, require_opposing
+from .impact import NoDirectionError, UndeterminedError, UnsettledError
 from .integration import Flag, Workspace
 from .kernels.loop import Result
 from .kernels.motion import FINE, MANY_EVENTS, NOT_FINITE, SINGULAR, STEP_LIMIT, UNSETTLED
 from .method import Method
 from .mode_state import TOUCHING, ModeState
-from .outcome import CHATTERS, DRIVES, HOLDS_LESS, NO_DIRECTION, OUT_OF_REACH, SLIDES, WITHIN_STEPS
+from .outcome import CHATTERS, DRIVES, HOLDS_LESS, NO_DIRECTION, OUT_OF_REACH, SLIDES, UNDETERMINED, WITHIN_STEPS
 from .pieces import Pieces
 from .problem import Floats, Problem
 from .run import Mesh, Run, Steps, run
 from .sliding import SlidingError
-from .transitions import BoundError, NoDirectionError, Transition, UnsettledError, begun, passed, with_offsets
+from .transitions import BoundError, Transition, begun, passed, with_offsets
 
 MOST = 5000  # events in one run
 AT_ONCE = 50  # events at the same time, by rounding
@@ -45,6 +46,7 @@ NARROW = 1.0 / 16.0  # of the gaps that count as closed
 OUTCOMES: Mapping[type[Exception], int] = {
     UnsettledError: UNSETTLED,
     NoDirectionError: NO_DIRECTION,
+    UndeterminedError: UNDETERMINED,
     np.linalg.LinAlgError: SINGULAR,
 }
 
@@ -151,7 +153,7 @@ def in_first_mode(problem: Problem, modes: Modes) -> Problem:
     """The problem as it is up to its first event; as it stands where nothing tells how it begins."""
     try:
         return _problem(with_offsets(begun(replace(problem, model=modes.model), modes)), 0)
-    except (UnsettledError, NoDirectionError, SlidingError, np.linalg.LinAlgError):
+    except (UnsettledError, NoDirectionError, UndeterminedError, SlidingError, np.linalg.LinAlgError):
         return problem
 
 
@@ -176,8 +178,8 @@ def _first(modes: Modes, steps: Steps, begin: Callable[[float], ModeState]) -> M
         return begin(_closed(modes, steps))
     except SlidingError as sliding:
         return _End(SLIDES, modes.name_of(sliding.row))
-    except np.linalg.LinAlgError:
-        return _End(SINGULAR)
+    except tuple(OUTCOMES) as unknown:
+        return _End(OUTCOMES[type(unknown)])
 
 
 def _behind(current: ModeState, event: Event, record: _Record, span: float) -> ModeState | _End:
@@ -249,7 +251,7 @@ def _next(current: ModeState, event: Event, record: _Record) -> ModeState | None
     n = len(current.q)
     before = current.at(event.time, event.state[:n].copy(), event.state[n : 2 * n].copy())
     require_opposing(before)
-    after, name, kind = passed(before, event.index)
+    after, name, kind, together = passed(before, event.index)
     if not (before.is_finite and after.is_finite):
         return None
     require_holding(after)
@@ -265,7 +267,7 @@ def _next(current: ModeState, event: Event, record: _Record) -> ModeState | None
     else:
         left = np.array([*after.q.tolist(), *after.v.tolist(), record.work][: event.state.size])
         is_last = kind == "slide" and current.modes.is_pin(event.index)
-        record.transitions.append(Transition(name, after.time, kind, reached, left, loss, ends_many=is_last))
+        record.transitions.append(Transition(name, after.time, kind, reached, left, loss, None, is_last, together))
     return after
 
 

@@ -29,6 +29,7 @@ Number: TypeAlias = str | int | float
 # No kernel says so: of runs that go on behind events; of those whose steps are too short to come anywhere; of rods.
 NO_DIRECTION, OUT_OF_REACH, SLIDES, CHATTERS, WITHIN_STEPS, NO_LENGTH = (UNSETTLED + k for k in range(1, 7))
 DRIVES, HOLDS_LESS = UNSETTLED + 7, UNSETTLED + 8  # of friction
+UNDETERMINED = UNSETTLED + 9  # of contacts at once
 
 JUDGED = frozenset({"ok", "event", "stopped", "guide_jumps", "horizon_reached", "tolerance_missed"})
 
@@ -67,6 +68,7 @@ _WORDS: Mapping[int, tuple[Status, str]] = MappingProxyType(
         MANY_EVENTS: ("step_limit", "many_events"),
         UNSETTLED: ("unresolved", "contacts_at_once"),
         NO_DIRECTION: ("unresolved", "contact_without_direction"),
+        UNDETERMINED: ("unresolved", "contacts_in_any_order"),
         OUT_OF_REACH: ("step_limit", "out_of_reach"),
         SLIDES: ("unresolved", "slides_along_kinks"),
         CHATTERS: ("unresolved", "switches_to_and_fro"),

@@ -30,6 +30,7 @@ from .derivatives import power
 from .driver import is_suitable, simulate
 from .event import event_values
 from .friction import FrictionForce, friction_along
+from .impact import NoDirectionError, UndeterminedError, UnsettledError
 from .indeterminate import indeterminate_forces
 from .kernels.compiler import MACHINE, MachineCodeNeededError, interpreted, soonest
 from .library import ENSEMBLES, get_method, method_ids
@@ -43,7 +44,7 @@ from .rounding import short
 from .run import Steps
 from .run import run as one_run
 from .trajectory import Trajectory
-from .transitions import NUDGE, NoDirectionError, UnsettledError, begun
+from .transitions import NUDGE, begun
 
 ANGLES = frozenset({"rad", "1", "°", "deg"})
 # Seconds for what is interpreted: where one waits, where others wait, too, and where that is quicker than compiling.
@@ -162,6 +163,8 @@ def _require_beginning(scene: Scene, problem: Problem) -> None:
         _refuse_contact(scene, "contact-without-direction", modes.contacts[found.contact])
     except UnsettledError:
         _refuse_contact(scene, "contacts-at-start", modes.contacts[0])
+    except UndeterminedError:
+        _refuse_contact(scene, "contacts-in-any-order", modes.contacts[0])
     except np.linalg.LinAlgError:  # without an inverse of M there is no motion either, and the run tells it
         return
 

@@ -1,42 +1,32 @@
-"""What an event does to a motion that goes on: impacts, sticking and slipping, contacts that rest and open, kinks,
-switches along which it slides.
+"""What an event does to a motion that goes on: impacts (`impact`), sticking and slipping, contacts that rest and open,
+kinks, switches along which it slides.
 
-At an impact the momenta jump along the gradient of the gap, p⁺ − p⁻ = Λ ∂g/∂q, such that the gap opens e times as fast
-as it closed: Λ = −(1 + e) ġ/(∂g/∂q M⁻¹ ∂g/∂qᵀ). Which rows are held behind it follows from their reactions: what sticks
-needs no more than F₀, what rests is pushed. Several contacts at once are taken one after the other. Constraints answer
-with impulses of their own, A q̇⁺ = A q̇⁻: M⁻¹ is then that part of the inverse of [M Aᵀ; A 0].
+Which rows are held behind it follows from their reactions: what sticks needs no more than F₀, what rests is pushed.
 Source: Pfeiffer, Glocker, Multibody Dynamics with Unilateral Contacts, ch. 4–8.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from contextlib import suppress
 from dataclasses import dataclass, replace
-from typing import TypeAlias
+from typing import NamedTuple
 
 import numpy as np
 
 from ..model.modes import Modes
+from .impact import ROUNDING, STILL, TICKS, after_impacts
 from .mode_state import TOUCHING, Facts, Mode, ModeState
 from .problem import Floats, Problem
 from .sliding import ALONG, SLACK, draws, leaves, on_side, rate_of, settled, side_left_to, unkept
 
-STILL = 1e-12  # a rate, relative to the largest
-HEIGHT = 1e-15  # by which rounding lifts a rebound, relative to the coordinates
-LOWEST = 1e-12  # the highest rebound that is taken for rest, relative to the coordinates; of what loses nothing, too
 OFF_KINK = 1e-14  # how far a motion goes off a kink that is taken for rest in it, relative to the coordinates
 LATE = 1e-7  # of the span; so much behind the zero of a gap its event is found at most
-ROUNDING = 1e-15
-TICKS = 4.0  # of the time: units in the last place by which an event may be off
 HARDLY = 1e-13  # of a rate of slipping
 TINY = 1e-9  # of the rates: what rounding left at an event is no more
-NOTHING = 1e-12  # of what an impulse would do without constraints: they take all of it
 NUDGE = 1e-6  # of the coordinates: for slopes by differences, which are right to about as much
 ROOMY = 1e3  # of what a scene's places and rates are at first: what they may become
-MOST_IMPACTS = 1000  # one after the other at one time
-MANY_IMPACTS = 30  # behind so many those without rebound are taken at once
 
 
 @dataclass(frozen=True)
@@ -44,7 +34,8 @@ class Transition:
     """An event behind which the motion went on: its name, time in seconds, kind, and the energy that was lost in J.
 
     `before` and `after` are the states on both sides of it, shape (width,). One that `ends_many` is the last that was
-    followed of events that pile up: how far away the last of all is, is not known.
+    followed of events that pile up: how far away the last of all is, is not known. `together` are further contacts that
+    pushed at that time, in this order.
     """
 
     name: str
@@ -55,21 +46,16 @@ class Transition:
     loss: float = 0.0
     error: float | None = None
     ends_many: bool = False
+    together: tuple[str, ...] = ()
 
 
-ModeEvent: TypeAlias = tuple[ModeState, str, str]  # the state behind an event, what it happened to, and its kind
+class ModeEvent(NamedTuple):
+    """The state behind an event, what it happened to, its kind, and further contacts that pushed, in this order."""
 
-
-class UnsettledError(Exception):
-    """Contacts at once whose impacts one after the other do not end."""
-
-
-class NoDirectionError(Exception):
-    """A contact whose gap changes with no coordinate where it is closed: no impulse along ∂g/∂q can part it."""
-
-    def __init__(self, contact: int) -> None:
-        super().__init__(contact)
-        self.contact = contact
+    state: ModeState
+    name: str
+    kind: str
+    together: tuple[str, ...] = ()
 
 
 class BoundError(Exception):
@@ -92,7 +78,7 @@ def _empty(modes: Modes) -> Mode:
 def begun(problem: Problem, modes: Modes, closed: float = TOUCHING) -> ModeState:
     """The initial state in its mode, without offsets, of a motion for which gaps as small as `closed` are closed.
 
-    Raises UnsettledError, NoDirectionError or SlidingError where it has none.
+    Raises UnsettledError, NoDirectionError, UndeterminedError or SlidingError where it has none.
     """
     n, state, empty = problem.degrees, problem.state, _empty(modes)
     own = with_signs(problem, modes)
@@ -101,7 +87,7 @@ def begun(problem: Problem, modes: Modes, closed: float = TOUCHING) -> ModeState
     kinks, pins = (tuple(-1.0 if s < 0.0 else 1.0 for s in each) for each in (current.facts.kinks, current.facts.pins))
     current = current.within(empty._replace(kinks=kinks, slips=(*empty.slips[: modes.first_pin], *pins)))
     touching = current.touching
-    return _resolved(_after_impacts(current, touching[0]) if touching else current, frozenset(touching), None)
+    return _resolved(after_impacts(current, touching[0]).state if touching else current, frozenset(touching), None)
 
 
 def least_sizes(current: ModeState) -> tuple[float, float]:
@@ -133,7 +119,7 @@ def passed(current: ModeState, watched: int) -> ModeEvent:
         if contact is not None and not mode.flags[modes.bounded + contact]:
             return _met(current, contact)
         kinks = tuple(-sign if k == place else sign for k, sign in enumerate(mode.kinks))
-        return _resolved(current.within(mode._replace(kinks=kinks)), frozenset(), None), "", "switch"
+        return _switched(current.within(mode._replace(kinks=kinks)))
     place -= len(modes.kinks)
     if place < 2 * modes.bounded:
         return _come_or_gone(current, place // 2)
@@ -141,7 +127,7 @@ def passed(current: ModeState, watched: int) -> ModeEvent:
     if mode.flags[modes.bounded + j]:
         row = modes.bounded + j  # a gap that was kept has no rate but what steps left of it
         found = _resolved(_without_rate(current, row), frozenset(), row)
-        return (found, _name(modes, j), "release") if leaves(found, row) else (found, "", "switch")
+        return ModeEvent(found, _name(modes, j), "release") if leaves(found, row) else ModeEvent(found, "", "switch")
     return _met(current, j)
 
 
@@ -152,16 +138,16 @@ def _come_or_gone(current: ModeState, row: int) -> ModeEvent:
     if current.mode.flags[row]:
         found = _resolved(current, frozenset(), row)
         if is_switch:
-            return found, name, "leave"
-        return (found, name, "slip") if leaves(found, row) else (found, "", "switch")
+            return ModeEvent(found, name, "leave")
+        return ModeEvent(found, name, "slip") if leaves(found, row) else ModeEvent(found, "", "switch")
     if row >= modes.first_pin:
         return _pinned(current, row, name)
     sign = current.mode.slips[row]
     stopped = _at_zero(current, sign * current.facts.w[row], sign * rate_of(current, row), 0.0)
     found = _resolved(_without_rate(stopped, row), frozenset(), None, row)
     if found.mode.flags[row]:
-        return found, name, "slide" if is_switch else "stick"
-    return (found, "", "switch") if is_switch else (found, name, "turn")
+        return ModeEvent(found, name, "slide" if is_switch else "stick")
+    return ModeEvent(found, "", "switch") if is_switch else ModeEvent(found, name, "turn")
 
 
 def _pinned(current: ModeState, row: int, name: str) -> ModeEvent:
@@ -174,8 +160,13 @@ def _pinned(current: ModeState, row: int, name: str) -> ModeEvent:
     if _lies_in(current, row):
         still = current.pushed(row, -current.facts.w[row])
         found = _resolved(still, frozenset(), None, row)
-        return (found, name, "slide") if found.mode.flags[row] else (found, "", "switch")
-    return _resolved(on_side(current, row, -sign), frozenset(), None), "", "switch"
+        return ModeEvent(found, name, "slide") if found.mode.flags[row] else ModeEvent(found, "", "switch")
+    return _switched(on_side(current, row, -sign))
+
+
+def _switched(current: ModeState) -> ModeEvent:
+    """The other side of a kink, of which nothing is told."""
+    return ModeEvent(_resolved(current, frozenset(), None), "", "switch")
 
 
 def _lies_in(current: ModeState, row: int) -> bool:
@@ -201,11 +192,13 @@ def _without_rate(current: ModeState, row: int) -> ModeState:
 
 
 def _met(current: ModeState, contact: int) -> ModeEvent:
-    """The state behind a contact that has closed, its name, and whether it rests."""
-    closed = _closed(current, contact)
-    found = _resolved(_after_impacts(closed, contact), frozenset({contact}), None)
-    rests = found.mode.flags[current.modes.bounded + contact]
-    return found, _name(current.modes, contact), "rest" if rests else "impact"
+    """What happens behind a contact that has closed, with others that touch."""
+    impacts = after_impacts(_closed(current, contact), contact)
+    found = _resolved(impacts.state, frozenset({contact}), None)
+    first, *others = impacts.pushed or (contact,)
+    rests = found.mode.flags[current.modes.bounded + first]
+    names = tuple(_name(current.modes, each) for each in others)
+    return ModeEvent(found, _name(current.modes, first), "rest" if rests else "impact", names)
 
 
 def _name(modes: Modes, contact: int) -> str:
@@ -259,69 +252,6 @@ def _at_zero(current: ModeState, value: float, rate: float, bend: float) -> Mode
     a = current.accelerations
     q, v = current.q - late * (current.v - 0.5 * late * a), current.v - late * a
     return current.at(current.time - late, q, v)
-
-
-def _after_impacts(current: ModeState, first: int) -> ModeState:
-    """The state behind the impact of a contact, and of others that it closes or that touch, one after the other."""
-    first_row = current.modes.bounded
-    free = current.with_flags((0.0,) * current.modes.rows)
-    resting = {j for j in range(len(current.modes.contacts)) if current.mode.flags[first_row + j]}
-    touching = {first} | resting | set(free.touching)
-    for j in touching:
-        _require_direction(free, j)
-    for count in range(MOST_IMPACTS):
-        rates = {j: free.facts.w[first_row + j] for j in touching}
-        j = min(rates, key=lambda each: rates[each] / free.scale(each))
-        if rates[j] >= -STILL * free.scale(j) * free.size_of_rates:
-            return free.within(current.mode)
-        if count >= MANY_IMPACTS and all(free.facts.restitutions[each] == 0.0 for each in touching):
-            return _caught(free, sorted(touching)).within(current.mode)
-        e = 0.0 if _rests(free, first_row + j, j) else free.facts.restitutions[j]
-        free = free.pushed(first_row + j, -(1.0 + e) * rates[j])
-    raise UnsettledError
-
-
-def _caught(current: ModeState, contacts: Sequence[int]) -> ModeState:
-    """The state behind impacts at once that lose all of their rates: Λ ≥ 0, ġ⁺ ≥ 0, and Λ = 0 where ġ⁺ > 0.
-
-    It is what impacts one after the other come to, which may take very many. Raises UnsettledError where it is not
-    found, for contacts that depend on each other.
-    """
-    rows = [current.modes.bounded + j for j in contacts]
-    moved: Floats = np.array([current.moved_by(current.facts.a[row]) for row in rows])
-    flexibility, rates = current.facts.a[rows] @ moved.T, np.array([current.facts.w[row] for row in rows])
-    least = np.array([STILL * current.scale(j) * current.size_of_rates for j in contacts])
-    closing = np.zeros(len(rows), dtype=bool)
-    for _ in range(MOST_IMPACTS):
-        impulses = np.zeros(len(rows))
-        part = flexibility[np.ix_(closing, closing)]  # singular where contacts depend on each other
-        impulses[closing] = np.linalg.lstsq(part, -rates[closing], rcond=ROUNDING * len(rows))[0]
-        wrong = np.flatnonzero(np.where(closing, impulses < 0.0, rates + flexibility @ impulses < -least))
-        if not wrong.size:
-            return current.at(current.time, current.q, current.v + impulses @ moved)
-        closing[wrong[0]] = not closing[wrong[0]]
-    raise UnsettledError
-
-
-def _require_direction(current: ModeState, contact: int) -> None:
-    """Raises NoDirectionError for a contact without a gradient."""
-    row = current.facts.a[current.modes.bounded + contact]
-    if not float(row @ current.moved_by(row)) > NOTHING * float(row @ np.linalg.solve(current.mass, row)):
-        raise NoDirectionError(contact)
-
-
-def _rests(current: ModeState, row: int, contact: int) -> bool:
-    """Whether the rebound would be lower than can be told from rest: it loses 1 − e² of what rounding lifts it by."""
-    facts = current.facts
-    e = facts.restitutions[contact]
-    rebound = e * facts.w[row]
-    pull = -float(facts.a[row] @ current.accelerations + facts.bias[row])
-    if not pull > 0.0:
-        return False
-    height, lost, size = rebound * rebound / (2.0 * pull) / current.scale(contact), 1.0 - e * e, current.size_of_places
-    rounding = TICKS * math.ulp(current.time) * abs(float(facts.w[row] - facts.a[row] @ current.v))
-    unknown = rounding / current.scale(contact)  # where the contact is that moves with the time
-    return height <= LOWEST * size + unknown and height * lost <= HEIGHT * size + unknown
 
 
 def _resolved(current: ModeState, closed: frozenset[int], released: int | None, come: int | None = None) -> ModeState:

@@ -43,10 +43,8 @@ def apply(system: System, event: Event, found: Impact) -> Step:
         *_behind(system, event, found),
     )
     moves = moving_term(system, event) != 0 or any(map(system.moving_term, system.conditions))
-    outcome = "moving" if moves else "text"
-    if system.conditions:
-        outcome = "constrained-moving" if moves else "constrained"
-    about = {"event": event.name, "outcome": outcome}
+    kinds = {"constrained": bool(system.conditions), "moving": moves, "several": len(bouncing(system)) > 1}
+    about = {"event": event.name, "outcome": "-".join(kind for kind, holds in kinds.items() if holds)}
     equations = tuple(f"equation:{q}" for q in found.rates)
     system_of_it = (f"{SYSTEM}:{event.name}",) if system.conditions else ()
     premises = (f"{GAP}:{event.name}", *system_of_it, *equations)
