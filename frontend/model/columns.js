@@ -43,7 +43,7 @@ export function unpacked(answer) {
     const wide = t.length ? numbers.length / t.length : 0;
     return t.map((_, i) => numbers.slice(i * wide, (i + 1) * wide));
   };
-  const { coordinates, rates, positions, loads, multipliers, friction, energy } = answer;
+  const { coordinates, rates, positions, loads, multipliers, friction, contacts, energy } = answer;
   const { drift, works, power, work, ...energies } = energy ?? {};
   const columns = power && work ? { ...energies, power, work } : energies;
   const made = {
@@ -56,6 +56,7 @@ export function unpacked(answer) {
     loads: each(loads, asRows),
     multipliers: each(multipliers, asPartial),
     friction: each(friction, ({ force, largest }) => ({ force: asPartial(force), largest: asNumbers(largest) })),
+    contacts: each(contacts, ({ force, unit }) => ({ force: asPartial(force), unit })),
     energy: energy && { ...each(columns, asNumbers), drift, works },
   };
   return /** @type {Trajectory} */ (made);

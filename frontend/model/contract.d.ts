@@ -2355,6 +2355,19 @@ export interface components {
             forces: components["schemas"]["CoordinateFormula"][];
         };
         /**
+         * ContactAnswer
+         * @description The force of a contact, at rest or of a taut string, along the gradient of its gap; 0 while it is open.
+         */
+        ContactAnswer: {
+            /** @description without the impulses of impacts; null where it is `indeterminate` */
+            force: components["schemas"]["PartialColumn"];
+            /**
+             * Unit
+             * @description N where the gap is a length; empty where the scene states too few units
+             */
+            unit: string;
+        };
+        /**
          * ContactEquilibrium
          * @description A state of rest on closed contacts, whose reactions balance the other forces.
          */
@@ -7771,6 +7784,13 @@ export interface components {
              */
             friction?: {
                 [key: string]: components["schemas"]["FrictionAnswer"];
+            } | null;
+            /**
+             * Contacts
+             * @description by event that goes on with a rebound, with `loads`: what keeps its value at zero
+             */
+            contacts?: {
+                [key: string]: components["schemas"]["ContactAnswer"];
             } | null;
             /**
              * Multipliers

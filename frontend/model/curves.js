@@ -1,6 +1,7 @@
 /** Curves of a motion, in rows: those of one row share an axis. */
 
 import { knotsBetween } from "./curve.js";
+import { contactRow, frictionRows, reactionRows } from "./forces.js";
 import { smooth } from "./interpolation.js";
 import { readLook, spanOf, wrap } from "./look.js";
 import { unitText } from "./numbers.js";
@@ -58,7 +59,7 @@ function fits({ curves, least }, values, axes) {
 
 /**
  * Coordinates of the same unit share a row as long as each is to be seen in it; reactions have one, each friction has,
- * the energies have the last.
+ * contacts have one, the energies have the last.
  * @param {Scene} scene @param {Trajectory} trajectory @param {Look} look
  * @returns {Row[]}
  */
@@ -101,6 +102,7 @@ function rowsOfOne(scene, trajectory, look) {
   const others = [
     ...reactionRows(scene, trajectory, look),
     ...frictionRows(scene, trajectory, look),
+    ...contactRow(scene, trajectory, look),
     ...energyRow(trajectory, look),
   ];
   return [...rows.map(({ of: _, ...row }) => row), ...others].map((row) =>
@@ -114,129 +116,6 @@ function within(curve, from, to) {
   const { at, wrapped } = curve;
   return { ...curve, times, values: times.map((t) => (wrapped ? wrap(at(t)) : at(t))) };
 }
-
-/**
- * Reactions along the motion: multipliers of constraints, and what holds what was released; those of a unit share a row.
- * @param {Scene} scene @param {Trajectory} trajectory @param {Look} look @returns {Row[]}
- */
-function reactionRows(scene, trajectory, { hidden }) {
-  const { t: times, multipliers, reactions } = trajectory;
-  if (!multipliers) return [];
-  /** @type {Map<string, Row>} */
-  const rows = new Map();
-  Object.entries(multipliers).forEach(([name, values], k) => {
-    const { unit = "", of_rod: pulls = false } = reactions?.[name] ?? {};
-    const row = rows.get(unit) ?? { key: `reactions${rows.size || ""}`, unit, least: 0, curves: [] };
-    rows.set(unit, row);
-    row.curves.push({
-      key: `reaction-${name}`,
-      name,
-      latex: symbolOfForce(scene, trajectory, name),
-      className: `q-${scene.coordinates.length + k}`,
-      values,
-      times,
-      at: smooth(times, values),
-      decimals: decimalsKnown(times, values, []),
-      dash: "solid",
-      band: false,
-      beside: false,
-      wrapped: false,
-      hidden: hidden.includes(`reaction-${name}`),
-      pulls,
-    });
-  });
-  return [...rows.values()];
-}
-
-/**
- * The force R of each friction between ±F⁰, which it reaches where what sticks begins to slip.
- * @param {Scene} scene @param {Trajectory} trajectory @param {Look} look @returns {Row[]}
- */
-function frictionRows(scene, trajectory, { hidden }) {
-  const { t: times, friction } = trajectory;
-  const { coordinates, constraints, loads } = scene;
-  /** The coordinate that a friction acts on, or one of those that it is a sum of. @param {string} name */
-  const slipping = (name) => {
-    const text = loads.find((load) => load.name === name)?.coordinate ?? "";
-    const parts = coordinates.filter((one) => text.split(/[\s()+-]+/).includes(one.name));
-    return parts.every((one) => one.unit === parts[0]?.unit) ? parts[0] : undefined;
-  };
-  const several = Object.keys(friction ?? {}).length > 1;
-  return Object.entries(friction ?? {}).map(([name, { force, largest }], k) => {
-    const along = slipping(name);
-    const curve = (/** @type {string} */ key, /** @type {string} */ latex, /** @type {number[]} */ values) => ({
-      key: `${key}-${name}`,
-      name: several ? `${latex} (${name})` : latex,
-      latex,
-      className: `q-${coordinates.length + (constraints ?? []).length + k}`,
-      values,
-      times,
-      at: smooth(times, values),
-      decimals: decimalsKnown(times, values, []),
-      dash: key === "friction" ? "solid" : "dash",
-      band: false,
-      beside: false,
-      wrapped: false,
-      hidden: hidden.includes(`${key}-${name}`),
-    });
-    const symbol = symbolOfForce(scene, trajectory, name);
-    const most = symbol.replace("R", "F^0");
-    const curves = [
-      curve("friction", symbol, force),
-      curve("most", most, largest),
-      curve(
-        "least",
-        `-${most}`,
-        largest.map((value) => -value),
-      ),
-    ];
-    return { key: `friction${k}`, unit: CONJUGATE[along?.unit ?? ""] ?? "", least: 0, curves };
-  });
-}
-
-/**
- * What a friction, a multiplier or a reaction is called in the plots.
- * @param {Scene} scene @param {Trajectory} trajectory @param {string} name
- */
-export function symbolOfForce({ coordinates, parameters }, { friction }, name) {
-  const frictions = Object.keys(friction ?? {});
-  if (frictions.includes(name)) return frictions.length > 1 ? `R_{${frictions.indexOf(name) + 1}}` : "R";
-  const released = [...coordinates, ...parameters].find((one) => one.name === name);
-  return released ? `Z_{${released.latex || name}}` : symbolOf(name);
-}
-
-/** What works through a displacement of this unit. @type {Record<string, string>} */
-const CONJUGATE = { m: "N", rad: "N m" };
-
-/**
- * When the force of a rod or string changes its sign: there a string would go slack, and a rod begins to push or to pull.
- * @param {Curve} curve
- */
-export function slackTimes({ pulls, times, values, at }) {
-  if (!pulls) return [];
-  return times.slice(1).flatMap((end, i) => {
-    let [low, high] = [times[i], end];
-    if (!(values[i] * values[i + 1] < 0 && high > low)) return [];
-    for (let n = 0; n < HALVINGS; n += 1) {
-      const middle = (low + high) / 2;
-      if (at(middle) * values[i] > 0) low = middle;
-      else high = middle;
-    }
-    return [low];
-  });
-}
-
-const HALVINGS = 40;
-
-/** How the name of a multiplier is written: a Greek letter as such, a number behind it below. @param {string} name */
-function symbolOf(name) {
-  const [, letters, index] = /^([A-Za-z]+)_?(\w*)$/.exec(name) ?? ["", name, ""];
-  const letter = letters.length > 1 ? `\\${GREEK.has(letters) ? letters : `mathit{${letters}}`}` : letters;
-  return index ? `${letter}_{${index}}` : letter;
-}
-
-/** Greek letters that multipliers are called by. */
-const GREEK = new Set(["lambda", "mu", "nu", "kappa", "sigma", "tau", "rho", "xi", "eta", "zeta"]);
 
 /** @param {Trajectory} trajectory @param {Look} look @returns {Row[]} */
 function energyRow({ t: times, energy }, { hidden }) {

@@ -1,7 +1,7 @@
 /** Forces that a motion does not determine, in sentences: where more sticks, rests or is bound than it needs. */
 
 import { inLanguage } from "./catalog.js";
-import { symbolOfForce } from "./curves.js";
+import { symbolOfForce } from "./forces.js";
 import { fixed } from "./numbers.js";
 import { endOf } from "./trajectory.js";
 

@@ -1,7 +1,7 @@
 /** How rows of curves are drawn over one time axis. */
 
 import { traced, unbroken } from "./curve.js";
-import { slackTimes } from "./curves.js";
+import { slackTimes } from "./forces.js";
 import { spanAt } from "./interpolation.js";
 import { folded } from "./look.js";
 import { largestError, usual } from "./trajectory.js";

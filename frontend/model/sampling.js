@@ -114,6 +114,7 @@ function quantitiesOf(trajectory) {
       quantity(values, roundingBy(error?.multipliers?.[name])),
     ),
     ...Object.values(trajectory.friction ?? {}).map(({ force }) => quantity(force, exactly)),
+    ...Object.values(trajectory.contacts ?? {}).map(({ force }) => quantity(force, exactly)),
     ...(energy ? energiesOf(energy) : []),
   ];
 }

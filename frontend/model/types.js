@@ -63,9 +63,9 @@
  * @typedef {Contract["MethodEntry"]} Method
  * @typedef {NonNullable<Contract["SimulationRequest"]["include"]>} Parts  of a motion
  * @typedef {InNumbers<Omit<Contract["Energy"], "drift" | "works">> & Pick<Contract["Energy"], "works">} Energy
- * @typedef {Omit<Contract["SimulationAnswer"], "t" | "coordinates" | "rates" | "positions" | "loads" | "multipliers" | "friction" | "energy"> & {t: number[],
+ * @typedef {Omit<Contract["SimulationAnswer"], "t" | "coordinates" | "rates" | "positions" | "loads" | "multipliers" | "friction" | "contacts" | "energy"> & {t: number[],
  *   coordinates: Record<string, number[]>, rates: Record<string, number[]>, positions: Record<string, number[][]>,
- *   loads?: Record<string, number[][]> | null, multipliers?: Record<string, number[]> | null, friction?: Record<string, {force: number[], largest: number[]}> | null, energy?: Energy | null, coarse?: boolean}} Trajectory  with what the page always asks to be included; coarse: its samples do not show all of the motion
+ *   loads?: Record<string, number[][]> | null, multipliers?: Record<string, number[]> | null, friction?: Record<string, {force: number[], largest: number[]}> | null, contacts?: Record<string, {force: number[], unit: string}> | null, energy?: Energy | null, coarse?: boolean}} Trajectory  with what the page always asks to be included; coarse: its samples do not show all of the motion
  * @typedef {{value: number, rate: number}} Initial
  * @typedef {{initial: Record<string, Initial>, parameters: Record<string, number>}} Changes
  * @typedef {{t: number, coordinates: Record<string, number>, rates: Record<string, number>,

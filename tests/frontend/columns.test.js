@@ -18,18 +18,18 @@ test("a string that the server wrote", () => {
 
 test("the page asks for planes and has plain numbers", async () => {
   const t = [0, 0.1, 1 / 3];
-  const told = { status: "ok", columns: "planes", t: planes(t), coordinates: { x: planes([1, -0, 1e-300]) }, rates: { x: planes(t) }, positions: { P: planes([1, 2, 3, 4, 5, 6]) }, loads: null, friction: { ground: { force: planes(t), largest: planes(t) } }, energy: { kinetic: planes(t), works: true, drift: 0.5 }, error: { estimate: [1e-9, 2e-9, 3e-9] } };
+  const told = { status: "ok", columns: "planes", t: planes(t), coordinates: { x: planes([1, -0, 1e-300]) }, rates: { x: planes(t) }, positions: { P: planes([1, 2, 3, 4, 5, 6]) }, loads: null, friction: { ground: { force: planes(t), largest: planes(t) } }, contacts: { floor: { force: planes(t), unit: "N" } }, energy: { kinetic: planes(t), works: true, drift: 0.5 }, error: { estimate: [1e-9, 2e-9, 3e-9] } };
   /** @type {any[]} */
   const asked = [];
   const send = async (/** @type {any} */ _url, /** @type {any} */ options) => (asked.push(JSON.parse(options.body)), new Response(JSON.stringify(told)));
   const found = await createApi(send).simulate({ scene: "pendulum", t_end: 1 });
   assert.deepEqual(asked, [{ scene: "pendulum", t_end: 1, columns: "planes" }]);
-  assert.deepEqual(found, { ...told, columns: "numbers", t, coordinates: { x: [1, -0, 1e-300] }, rates: { x: t }, positions: { P: [[1, 2], [3, 4], [5, 6]] }, multipliers: undefined, friction: { ground: { force: t, largest: t } }, energy: { kinetic: t, works: true, drift: 0.5 } });
+  assert.deepEqual(found, { ...told, columns: "numbers", t, coordinates: { x: [1, -0, 1e-300] }, rates: { x: t }, positions: { P: [[1, 2], [3, 4], [5, 6]] }, multipliers: undefined, friction: { ground: { force: t, largest: t } }, contacts: { floor: { force: t, unit: "N" } }, energy: { kinetic: t, works: true, drift: 0.5 } });
 });
 
 test("numbers that are plain already stay, and no sample has no columns", () => {
   const plain = { columns: "numbers", t: [0, 1], coordinates: { x: [1, 2] }, rates: { x: [0, 0] }, positions: { P: [[1, 2], [3, 4]] }, loads: {}, energy: { kinetic: [1, 2], works: false, drift: 0 } };
   assert.deepEqual(unpacked(/** @type {any} */ ({ ...plain, multipliers: { rod: [1, null] }, friction: { ground: { force: [null, 2], largest: [3, 3] } } })).multipliers, { rod: [1, NaN] });
-  assert.deepEqual(unpacked(/** @type {any} */ (plain)), { ...plain, multipliers: undefined, friction: undefined });
+  assert.deepEqual(unpacked(/** @type {any} */ (plain)), { ...plain, multipliers: undefined, friction: undefined, contacts: undefined });
   assert.deepEqual(unpacked(/** @type {any} */ ({ columns: "planes", t: "", positions: { P: "" } })).positions, { P: [] });
 });

@@ -79,14 +79,15 @@ function departure(points, corners) {
 const cornersOf = (d) => d.slice(1).split("L").map((pair) => pair.split(" ").map(Number));
 
 /** All that has a curve over time, by its key. */
-function valuesOf({ coordinates, energy, multipliers, friction }) {
+function valuesOf({ coordinates, energy, multipliers, friction, contacts }) {
   const reactions = Object.entries(multipliers ?? {}).map(([name, column]) => [`reaction-${name}`, column]);
   const frictions = Object.entries(friction ?? {}).flatMap(([name, { force, largest }]) => [
     [`friction-${name}`, force],
     [`most-${name}`, largest],
     [`least-${name}`, largest.map((value) => -value)],
   ]);
-  return { ...coordinates, ...energy, ...Object.fromEntries([...reactions, ...frictions]) };
+  const pushing = Object.entries(contacts ?? {}).map(([name, { force }]) => [`contact-${name}`, force]);
+  return { ...coordinates, ...energy, ...Object.fromEntries([...reactions, ...frictions, ...pushing]) };
 }
 
 /** Seconds around a jump in which two motions may be on either side of it. */

@@ -2,7 +2,8 @@ import { strict as assert } from "node:assert";
 import { readFileSync } from "node:fs";
 import { test } from "node:test";
 import { translator } from "../../frontend/model/catalog.js";
-import { rowsOf, slackTimes } from "../../frontend/model/curves.js";
+import { rowsOf } from "../../frontend/model/curves.js";
+import { slackTimes } from "../../frontend/model/forces.js";
 import { picturesOf } from "../../frontend/model/history.js";
 import { indeterminateIn } from "../../frontend/model/indeterminate.js";
 import { tableOf } from "../../frontend/model/picture/table.js";
@@ -39,6 +40,15 @@ for (const [coordinate, unit] of [["y", "N"], ["phi", "N m"], ["y - 2", "N"], ["
     const rubbed = /** @type {any} */ ({ ...scene, loads: [{ kind: "friction", name: "rubs", coordinate, force: "1" }] });
     const row = rowsOf(rubbed, { ...trajectory, friction }).find((one) => one.key === "friction0");
     assert.equal(row?.unit, unit);
+  });
+
+for (const [units, latex, unit] of /** @type {[string[], string[], string][]} */ ([[["N"], ["N"], "N"], [["N", "N"], ["N_{1}", "N_{2}"], "N"], [["N", "N m"], ["N_{1}", "N_{2}"], ""]]))
+  test(`contacts in ${units.join(" and ")} share a row, those that never act have none`, () => {
+    const contacts = Object.fromEntries(units.map((each, k) => [`c${k}`, { force: trajectory.t, unit: each }]));
+    const row = rowsOf(scene, { ...trajectory, contacts }).find((one) => one.key === "contacts");
+    assert.deepEqual([row?.unit, row?.curves.map((curve) => curve.latex)], [unit, latex]);
+    const open = { wall: { force: trajectory.t.map(() => 0), unit: "N" } };
+    assert.ok(rowsOf(scene, { ...trajectory, contacts: open }).every(({ key }) => key !== "contacts"));
   });
 
 /** A force that is not determined between two events, whose times stand twice. */

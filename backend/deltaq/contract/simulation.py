@@ -152,6 +152,13 @@ class TransitionAnswer(Answer):
     )
 
 
+class ContactAnswer(Answer):
+    """The force of a contact, at rest or of a taut string, along the gradient of its gap; 0 while it is open."""
+
+    force: PartialColumn = Field(description="without the impulses of impacts; null where it is `indeterminate`")
+    unit: str = Field(description="N where the gap is a length; empty where the scene states too few units")
+
+
 class FrictionAnswer(Answer):
     """The force of a load with dry friction along its coordinate, and the largest that could hold, at the samples."""
 
@@ -205,6 +212,9 @@ class SimulationAnswer(Answer):
     loads: dict[str, VectorColumn] | None = Field(None, description="force vectors")
     friction: dict[str, FrictionAnswer] | None = Field(
         None, description="by load, with `loads`: what acts, and F₀ up to which it can hold"
+    )
+    contacts: dict[str, ContactAnswer] | None = Field(
+        None, description="by event that goes on with a rebound, with `loads`: what keeps its value at zero"
     )
     multipliers: dict[str, PartialColumn] | None = Field(
         None,

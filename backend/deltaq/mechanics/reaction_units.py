@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from fractions import Fraction
 
+from .event import Event
 from .homogeneity import SECOND, DimensionCheck
 from .scene import Scene
 from .units import UNITS, Dimension, dimension_of
@@ -25,12 +26,20 @@ def reaction_unit(scene: Scene, name: str) -> str:
 
     "" where the scene states too few units.
     """
+    return _unit(_works_through(scene, name, units_of(scene)), units_of(scene))
+
+
+def contact_unit(scene: Scene, event: Event) -> str:
+    """The unit of the force of a contact, which works through its gap; "" where the scene states too few units."""
     units = units_of(scene)
-    known = [unit for unit in units.values() if unit is not None]
-    if not any(unit.mass for unit in known):
+    found = DimensionCheck(units, "", []).of(event.value.tree)
+    return _unit(found if isinstance(found, Dimension) else None, units)
+
+
+def _unit(works_through: Dimension | None, units: dict[str, Dimension | None]) -> str:
+    if works_through is None or not any(unit.mass for unit in units.values() if unit is not None):
         return ""
-    works_through = _works_through(scene, name, units)
-    return "" if works_through is None else _by_newtons(ENERGY.times(works_through.to(Fraction(-1))))
+    return _by_newtons(ENERGY.times(works_through.to(Fraction(-1))))
 
 
 def _works_through(scene: Scene, name: str, units: dict[str, Dimension | None]) -> Dimension | None:

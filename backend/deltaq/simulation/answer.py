@@ -9,7 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from ..mechanics.reaction_units import reaction_unit
+from ..mechanics.reaction_units import contact_unit, reaction_unit
 from ..mechanics.scene import Scene
 from ..mechanics.units import UNITS, dimension_of
 from ..mechanics.user_text import plainly
@@ -34,10 +34,14 @@ UNKNOWN_ERROR = 1e-12  # to round by where no error estimate was asked for
 
 @dataclass(frozen=True)
 class Acting:
-    """What acts along a motion: the power `watts`, shape (samples,), `frictions` by load, and what is indeterminate."""
+    """What acts along a motion: the power `watts`, shape (samples,), frictions and contacts, what is indeterminate.
+
+    `frictions` are by load; `contacts` by event, shape (samples,) each.
+    """
 
     watts: Floats
     frictions: Mapping[str, FrictionForce]
+    contacts: Mapping[str, Floats]
     indeterminate: IndeterminateForces
 
 
@@ -62,8 +66,8 @@ def answer(
     if "error" in request.include and trajectory.estimate:  # asked for, it is there
         parts["error"] = _error(request, problem, trajectory, trajectory.estimate, acting.indeterminate)
     parts |= _constrained(request, problem, trajectory)
-    if "loads" in request.include and acting.frictions:
-        parts["friction"] = _friction(acting.frictions, trajectory.times, acting.indeterminate, column)
+    if "loads" in request.include:
+        parts |= _switching(request.scene, acting, trajectory.times, column)
     if "multipliers" in request.include and trajectory.reactions:
         parts["multipliers"] = _multipliers(problem, trajectory, trajectory.reactions, acting.indeterminate, column)
         parts["reactions"] = _reactions(request.scene, problem)
@@ -221,22 +225,28 @@ def _reactions(scene: Scene, problem: Problem) -> Document:
     }
 
 
-def _friction(
-    frictions: Mapping[str, FrictionForce], times: Floats, indeterminate: IndeterminateForces, column: Writer
-) -> Document:
-    """R and F₀ of each load with friction."""
+def _switching(scene: Scene, acting: Acting, times: Floats, column: Writer) -> Document:
+    """R and F₀ of each load with friction, the force of each contact and its unit; nothing where there are none."""
 
-    def shorter(values: Floats) -> Floats:
-        doubt = UNKNOWN_ERROR * max(1.0, np.abs(values).max(initial=0.0))
-        return column.shorten(values, np.full(len(values), doubt))
+    def partial(name: str, force: Floats) -> object:
+        return column.write(_without(_shorter(force, column), acting.indeterminate.where(name, times)))
 
-    return {
-        name: {
-            "force": column.write(_without(shorter(each.force), indeterminate.where(name, times))),
-            "largest": column.write(shorter(each.largest)),
-        }
-        for name, each in frictions.items()
+    events = {event.name: event for event in scene.events}
+    frictions = {
+        name: {"force": partial(name, each.force), "largest": column.write(_shorter(each.largest, column))}
+        for name, each in acting.frictions.items()
     }
+    contacts = {
+        name: {"force": partial(name, force), "unit": contact_unit(scene, events[name])}
+        for name, force in acting.contacts.items()
+    }
+    return {key: found for key, found in (("friction", frictions), ("contacts", contacts)) if found}
+
+
+def _shorter(values: Floats, column: Writer) -> Floats:
+    """A column without an error of its own, of shape (samples,)."""
+    doubt = UNKNOWN_ERROR * max(1.0, np.abs(values).max(initial=0.0))
+    return column.shorten(values, np.full(len(values), doubt))
 
 
 def _indeterminate_spans(indeterminate: IndeterminateForces, trajectory: Trajectory) -> list[Document]:

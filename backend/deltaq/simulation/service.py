@@ -26,6 +26,7 @@ from .answer import Acting, Document, answer
 from .auto import choose
 from .choice import Choice, check
 from .consistency import consistent
+from .contact import contacts_along
 from .derivatives import power
 from .driver import is_suitable, simulate
 from .event import event_values
@@ -113,11 +114,14 @@ def _simulated(request: Request, choice: Choice, problem: Problem, compile_time:
         seen = observed(problem, modes, trajectory.times, states, trajectory.stretches)
     watts = power(problem, trajectory.times, states, trajectory.stretches)
     frictions = friction_along(modes, trajectory.times, states, trajectory.stretches) if modes else {}
-    good = _finite(trajectory, seen, watts, frictions)
+    contacts = contacts_along(modes, trajectory.times, states, trajectory.stretches) if modes else {}
+    good = _finite(trajectory, seen, watts, frictions, contacts)
     if good < len(trajectory.times):
         trajectory, seen = _cut(trajectory, good), _cut_observation(seen, good)
         frictions = {name: each.first(good) for name, each in frictions.items()}
-    acting = Acting(watts[: len(trajectory.times)], frictions, indeterminate_forces(modes, trajectory.stretches))
+        contacts = {name: each[:good] for name, each in contacts.items()}
+    indeterminate = indeterminate_forces(modes, trajectory.stretches)
+    acting = Acting(watts[: len(trajectory.times)], frictions, contacts, indeterminate)
     return answer(request, choice, problem, trajectory, seen, acting, compile_time)
 
 
@@ -217,7 +221,13 @@ def warm(*chosen: str) -> None:
         ensemble.warm(problem_of(load_scene("pendulum"), 0.1, 2))
 
 
-def _finite(trajectory: Trajectory, seen: Observation, watts: Floats, frictions: Mapping[str, FrictionForce]) -> int:
+def _finite(
+    trajectory: Trajectory,
+    seen: Observation,
+    watts: Floats,
+    frictions: Mapping[str, FrictionForce],
+    contacts: Mapping[str, Floats],
+) -> int:
     """The number of first samples at which everything told is finite (a position or a force may have a pole where the
     motion has none), and sums of it are, too.
     """
@@ -225,6 +235,7 @@ def _finite(trajectory: Trajectory, seen: Observation, watts: Floats, frictions:
     arrays += [trajectory.reactions.multipliers] if trajectory.reactions else []
     told = [*seen.values.values(), *seen.rates.values(), *seen.positions.values(), *seen.arrows.values()]
     told += [column for each in frictions.values() for column in (each.force, each.largest)]
+    told += contacts.values()
     return int((np.abs(np.column_stack([*arrays, *told])) <= LARGEST).all(axis=1).cumprod().sum())
 
 

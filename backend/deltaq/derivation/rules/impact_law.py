@@ -44,7 +44,7 @@ def apply(system: System, event: Event, found: Impact) -> Step:
     )
     moves = moving_term(system, event) != 0 or any(map(system.moving_term, system.conditions))
     kinds = {"constrained": bool(system.conditions), "moving": moves, "several": len(bouncing(system)) > 1}
-    about = {"event": event.name, "outcome": "-".join(kind for kind, holds in kinds.items() if holds)}
+    about = {"event": event.name, "outcome": "-".join(kind for kind, holds in kinds.items() if holds) or "text"}
     equations = tuple(f"equation:{q}" for q in found.rates)
     system_of_it = (f"{SYSTEM}:{event.name}",) if system.conditions else ()
     premises = (f"{GAP}:{event.name}", *system_of_it, *equations)
