@@ -73,7 +73,7 @@ OWN_REASONS: Mapping[Missing, str] = MappingProxyType(
 # Among which generators symmetries are sought: those affine in coordinates and time; motions of space and rigid bodies.
 GeneratorFamily = Literal["affine", "motions-of-space"]
 # What holds a part of a scene fixed: a length, another parameter of positions, the guide of a coordinate.
-HoldKind = Literal["length", "angle", "guide"]
+HoldKind = Literal["length", "lengths", "angle", "guide"]
 # What happens where a motion goes on.
 TransitionKind = Literal["impact", "rest", "release", "stick", "slip", "turn", "slide", "leave"]
 # Whether a load has a potential, by the curl of its generalized forces.

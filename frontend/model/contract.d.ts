@@ -6658,7 +6658,7 @@ export interface components {
              * Kind
              * @enum {string}
              */
-            kind: "length" | "angle" | "guide";
+            kind: "length" | "lengths" | "angle" | "guide";
             /** @description Z, in the direction in which it grows: negative where a rod pulls */
             reaction: components["schemas"]["Formula"];
             /**
@@ -6874,7 +6874,7 @@ export interface components {
              * Kind
              * @enum {string}
              */
-            kind: "length" | "angle" | "guide";
+            kind: "length" | "lengths" | "angle" | "guide";
             /** Latex */
             latex: string;
             /**

@@ -15,6 +15,7 @@ from deltaq.mechanics.changes import change
 from deltaq.mechanics.library import load_scene, scene_ids
 from deltaq.mechanics.release import held
 from deltaq.narration.derive import derive_request
+from deltaq.simulation.service import run
 
 HELD = [
     pytest.param(scene, each.name, id=f"{scene} {each.name}")
@@ -131,3 +132,32 @@ def test_what_nothing_holds_is_refused_at_its_place(scene: str, name: str, known
 def test_a_length_that_also_says_what_a_body_is_made_of_is_not_offered() -> None:
     """Half the length of a rod is where its centre of mass is; its moment of inertia depends on the length as well."""
     assert [each.name for each in held(load_scene("double-rod-pendulum"))] == []
+
+
+@pytest.mark.parametrize(
+    ("scene", "kind", "has_force"),
+    [
+        pytest.param("pendulum", "length", True, id="one rod"),
+        pytest.param("string-pendulum", "length", True, id="one string"),
+        pytest.param("coupled-pendulums", "lengths", False, id="two rods of the same length"),
+    ],
+)
+@pytest.mark.parametrize("language", ["de", "en"])
+def test_what_holds_a_length_of_several_rods_is_no_force_of_one(
+    scene: str, kind: str, language: str, *, has_force: bool
+) -> None:
+    """At rest each of two rods carries m g, and Z is −2 m g."""
+    derived = derive_request({"scene": scene, "lang": language, "release": ["l"]})
+    (found,) = derived["result"]["reactions"]  # type: ignore[index]
+    (step,) = (
+        step
+        for chapter in derived["chapters"]  # type: ignore[attr-defined]
+        for step in chapter["steps"]
+        if step["rule"] == "reaction"
+    )
+    assert found["kind"] == kind
+    assert (found["force"] is not None) is has_force
+    assert ("S = -Z" in step["text"]) is has_force
+    assert ({"de": "Summe", "en": "sum"}[language] in step["text"]) is not has_force
+    told = run({"scene": scene, "t_end": 1.0, "release": ["l"]})["reactions"]
+    assert told == {"l": {"unit": "N", "of_rod": has_force}}

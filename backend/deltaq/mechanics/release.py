@@ -19,10 +19,12 @@ from .parameter import Parameter
 from .scene import Scene
 from .units import Dimension, dimension_of
 
+RODS = frozenset({"rod", "string"})
+
 
 @dataclass(frozen=True)
 class Held:
-    """Something held fixed: a length by its unit, another parameter of positions (an angle), or a guide."""
+    """Something held fixed: a length by its unit, `lengths` if several rods are drawn with it, an angle, or a guide."""
 
     name: str
     kind: HoldKind
@@ -61,7 +63,15 @@ def _parameters(scene: Scene) -> Iterator[Held]:
     for parameter in scene.parameters:
         kind = _kind(dimension_of(parameter.unit))
         if kind and parameter.name in geometric - material:
-            yield Held(parameter.name, kind)
+            yield Held(parameter.name, "lengths" if kind == "length" and _is_shared(scene, parameter) else kind)
+
+
+def _is_shared(scene: Scene, length: Parameter) -> bool:
+    """Whether several rods or strings have this length: what holds it is then the sum of what they exert."""
+    rods = [
+        each for each in scene.drawing.elements if each.kind in RODS and dict(each.options).get("label") == length.name
+    ]
+    return len(rods) > 1
 
 
 def _kind(dimension: Dimension | None) -> HoldKind | None:

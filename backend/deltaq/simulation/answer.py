@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..mechanics.reaction_units import contact_unit, reaction_unit
+from ..mechanics.release import held
 from ..mechanics.scene import Scene
 from ..mechanics.units import UNITS, dimension_of
 from ..mechanics.user_text import plainly
@@ -213,8 +214,9 @@ def _without(values: Floats, is_open: NDArray[np.bool_]) -> Floats:
 
 
 def _reactions(scene: Scene, problem: Problem) -> Document:
-    """The unit of each reaction that has one value, and whether a rod or a string exerts it."""
-    lengths = {parameter.name for parameter in scene.parameters if dimension_of(parameter.unit) == UNITS["m"]}
+    """The unit of each reaction that has one value, and whether a single rod or string exerts it."""
+    single = {each.name for each in held(scene) if each.kind == "length"}
+    lengths = {each.name for each in scene.parameters if each.name in single and dimension_of(each.unit) == UNITS["m"]}
     rods = {
         symbol.name
         for symbol, each in zip(scene.multipliers, scene.constraints, strict=True)
