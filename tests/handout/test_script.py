@@ -113,6 +113,51 @@ def test_program_goes_on_behind_impacts_and_sticking(name: str, tmp_path: Path) 
         np.testing.assert_allclose(rates, np.array(shown["rates"][coordinate])[at], atol=1e-8)
 
 
+TWO_WALLS = [
+    pytest.param("x", "y", "", id="walls at a right angle"),
+    pytest.param("x", "y + x/2", "Several contacts at once", id="walls at an acute angle"),
+]
+
+
+@pytest.mark.parametrize(("one", "other", "refused"), TWO_WALLS)
+def test_program_of_contacts_at_once_goes_on_where_their_order_does_not_matter(
+    one: str, other: str, refused: str, tmp_path: Path
+) -> None:
+    """A point runs into a corner at rates (−1, −1): each wall alone would take a part of them."""
+    walls = [
+        {"name": name, "value": value, "then": "bounce", "restitution": "1"}
+        for name, value in (("first", one), ("second", other))
+    ]
+    for events in (walls, walls[::-1]):
+        scene = on_plane("corner") | {"events": events}
+        program = executed(str(export_request({"form": "python", "scene": scene, "t_end": 2.0})["text"]), tmp_path)
+        if refused:
+            with pytest.raises(SystemExit, match=refused):
+                program["solve"]()
+            continue
+        _, q, v = program["solve"]()
+        np.testing.assert_allclose([*q[:, -1], *v[:, -1]], [1.0, 1.0, 1.0, 1.0], atol=1e-9)
+
+
+def test_program_of_a_friction_that_would_drive_ends(tmp_path: Path) -> None:
+    scene = on_plane("rubbed") | {"loads": [{"kind": "friction", "name": "R", "coordinate": "x", "force": "1 - t"}]}
+    program = executed(str(export_request({"form": "python", "scene": scene, "t_end": 2.0})["text"]), tmp_path)
+    with pytest.raises(SystemExit, match="A friction becomes negative"):
+        program["solve"]()
+
+
+def on_plane(name: str) -> dict[str, object]:
+    """A point at (1, 1) with the rates (−1, −1)."""
+    return {
+        "format": 1,
+        "id": name,
+        "title": {"en": name},
+        "coordinates": [{"name": each, "value": 1.0, "rate": -1.0} for each in ("x", "y")],
+        "parameters": [],
+        "bodies": [{"name": "bob", "kind": "particle", "mass": "1", "position": ["x", "y"]}],
+    }
+
+
 def drawn_at_random(seed: int) -> dict[str, object]:
     """A particle on a spring, or one coupled to a fall; it rubs on a belt and hits a wall or a table."""
     draw = random.Random(seed)

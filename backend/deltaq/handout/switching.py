@@ -70,13 +70,22 @@ def pushed(t, q, v, row, change):  # behind an impulse that changes w by so much
     return v + moved * change / (a @ moved)
 
 
-def behind_impacts(t, q, v, slips, held):  # of all contacts that touch and close, one after the other
+def behind_impacts(t, q, v, slips, held):  # one after the other; with several at once each may be the first
+    closing = (contacts(t, q, v)[0] < 1e-11) & (rows(t, q, v)[1][FRICTIONS:] < -1e-12)
+    ends = [in_turn(t, q, v, slips, held, FRICTIONS + first) for first in np.flatnonzero(closing)]
+    if any(abs(end - ends[0]).max() > 1e-9 for end in ends):
+        raise SystemExit("Several contacts at once: how it goes on depends on which of them pushes first")
+    return ends[0] if ends else v
+
+
+def in_turn(t, q, v, slips, held, first):  # behind the impact of one, then of those that close, the fastest first
     free = np.zeros_like(held)
     for _ in range(1000):
         gaps, restitutions = contacts(t, q, v)
         a, w, gamma = rows(t, q, v)
         closing = np.where(gaps < 1e-11, w[FRICTIONS:], 0.0)
-        contact = int(np.argmin(closing))
+        contact = int(np.argmin(closing)) if first is None else first - FRICTIONS
+        first = None
         if closing[contact] > -1e-12:
             return v
         row = FRICTIONS + contact
@@ -175,7 +184,10 @@ def solve(t_end=T_END, samples=SAMPLES):
         )
         if not found.success:
             raise SystemExit(found.message)
-        states.extend(np.transpose(found.y))
+        shown = np.transpose(found.y)
+        if any((friction(t, *np.split(state, 2)) < -1e-9).any() for t, state in zip(found.t, shown)):
+            raise SystemExit("A friction becomes negative: it would drive what slips")
+        states.extend(shown)
         event = next((k for k, instants in enumerate(found.t_events) if len(instants)), None)
         if found.status == 0 or event < {endings}:
             break
