@@ -52,8 +52,12 @@ def ask(**fields: object) -> dict[str, object]:
 @pytest.mark.parametrize("accuracy", [{}, {"tolerance": 1e-9}, {"step": 0.01}], ids=["default", "tolerance", "step"])
 def test_every_scene_answers_in_full(scene: str, accuracy: dict[str, float]) -> None:
     answer = ask(scene=scene, **accuracy)
-    has_friction = any(load.kind == "friction" for load in load_scene(scene).loads)
-    of_scene = (OF_CONSTRAINTS if load_scene(scene).constraints else set()) | ({"friction"} if has_friction else set())
+    loaded = load_scene(scene)
+    forces = {
+        "friction": any(load.kind == "friction" for load in loaded.loads),
+        "contacts": any(event.bounces for event in loaded.events),
+    }
+    of_scene = (OF_CONSTRAINTS if loaded.constraints else set()) | {name for name, acts in forces.items() if acts}
     assert set(answer) == FIELDS | of_scene
     assert (answer["status"], answer["event"]) == ("ok", None)
     assert answer["reason"] == {"code": "ok", "parameters": answer["reason"]["parameters"]}
