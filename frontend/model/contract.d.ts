@@ -6646,7 +6646,7 @@ export interface components {
         };
         /**
          * ReactionResult
-         * @description What holds a length, an angle or a guided coordinate that was released in thought: δW = Z δl.
+         * @description What holds a length, an angle, a guided coordinate or a displacement that was released in thought: δW = Z δl.
          */
         ReactionResult: {
             /**
@@ -6658,7 +6658,7 @@ export interface components {
              * Kind
              * @enum {string}
              */
-            kind: "length" | "lengths" | "angle" | "guide";
+            kind: "length" | "lengths" | "rod" | "place" | "angle" | "guide";
             /** @description Z, in the direction in which it grows: negative where a rod pulls */
             reaction: components["schemas"]["Formula"];
             /**
@@ -6666,8 +6666,13 @@ export interface components {
              * @description whether no accelerations are left in it
              */
             closed: boolean;
-            /** @description of a length, the force −Z of rod or string, positive in tension */
+            /** @description of a rod or string, its force −Z, positive in tension */
             force: components["schemas"]["Formula"] | null;
+            /**
+             * At
+             * @description the end of a rod with mass at which that is its force
+             */
+            at?: string | null;
         };
         /**
          * Readiness
@@ -6874,7 +6879,7 @@ export interface components {
              * Kind
              * @enum {string}
              */
-            kind: "length" | "lengths" | "angle" | "guide";
+            kind: "length" | "lengths" | "rod" | "place" | "angle" | "guide";
             /** Latex */
             latex: string;
             /**

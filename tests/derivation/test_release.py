@@ -56,6 +56,21 @@ REACTIONS = [
     pytest.param("cart-pendulum", "l", "-M*m*(l*dot(phi)^2 + g*cos(phi))/(M + m*sin(phi)^2)"),
     # What lifts the top's centre of mass along its axis: m g cos θ less m l times the square of the axis' turning.
     pytest.param("heavy-top", "l", "m*(g*cos(theta) - l*(dot(theta)^2 + sin(theta)^2*dot(psi)^2))"),
+    # A rod's centre of mass is at l/2, and the pivot carries all of it.
+    pytest.param("physical-pendulum", "l", "-m*(l*dot(phi)^2/2 + g*cos(phi))"),
+    # The wind blows to the side with w l²/2 in all.
+    pytest.param("wind-on-rod", "l", "-m*(l*dot(phi)^2/2 + g*cos(phi)) - w*l^2/2*sin(phi)"),
+    # What the hoop exerts on the bead; the hoop's own moment of inertia has nothing to do with it.
+    pytest.param("bead-on-free-hoop", "R", "-m*(R*dot(theta)^2 + R*dot(psi)^2*sin(theta)^2 + g*cos(theta))"),
+    # The plane carries the disc.
+    pytest.param("rolling-disc", "R", "m*g*cos(alpha)"),
+    # Strings hang straight down; nothing pulls the masses apart.
+    pytest.param("atwood", "R", "0"),
+    pytest.param("swinging-atwood", "a", "0"),
+    # A rod that is a constraint has the force that its multiplier is.
+    pytest.param("cartesian-pendulum", "l", "-m*(g*y + (x*dot(y) - y*dot(x))^2/(x^2 + y^2))/sqrt(x^2 + y^2)"),
+    pytest.param("double-pendulum-by-rods", "l1", "-S1"),
+    pytest.param("double-pendulum-by-rods", "l2", "-S2"),
     # The wheel follows the road through its tyre.
     pytest.param("quarter-car", "w", "k1*(w0*sin(omega*t) - z1)"),
 ]
@@ -118,7 +133,7 @@ def test_motion_and_freedom_stay_those_of_the_scene() -> None:
         pytest.param("pendulum", "m", "l", id="no length"),
         pytest.param("pendulum", "phi", "l", id="free"),
         pytest.param("pendulum", "nothing", "l", id="unknown"),
-        pytest.param("physical-pendulum", "J", "", id="a moment of inertia"),
+        pytest.param("charged-particle", "m", "", id="of nothing that is held"),
     ],
 )
 def test_what_nothing_holds_is_refused_at_its_place(scene: str, name: str, known: str) -> None:
@@ -129,9 +144,46 @@ def test_what_nothing_holds_is_refused_at_its_place(scene: str, name: str, known
     assert dict(problem.parameters) == {"name": name, "known": known}
 
 
-def test_a_length_that_also_says_what_a_body_is_made_of_is_not_offered() -> None:
-    """Half the length of a rod is where its centre of mass is; its moment of inertia depends on the length as well."""
-    assert [each.name for each in held(load_scene("double-rod-pendulum"))] == []
+DRAWN = [
+    pytest.param(scene, dict(element.options)["label"], id=f"{scene} {dict(element.options)['label']}")
+    for scene in scene_ids()
+    for element in load_scene(scene).drawing.elements
+    if element.kind in ("rod", "string") and "label" in dict(element.options)
+]
+
+
+@pytest.mark.parametrize(("scene", "length"), DRAWN)
+def test_every_rod_and_string_that_is_drawn_can_be_asked_what_holds_it(scene: str, length: str) -> None:
+    """All but the string that is a contact, whose force is that of the contact, and what is a coordinate."""
+    given = load_scene(scene)
+    told = {each.name for each in held(given)} | {coordinate.name for coordinate in given.coordinates}
+    contacts = {name for event in given.events if event.bounces for name in event.value.names}
+    assert length in told | contacts
+
+
+@pytest.mark.parametrize("language", ["de", "en"])
+@pytest.mark.parametrize("scene", scene_ids())
+def test_what_is_held_is_told_with_all_names_put_in(scene: str, language: str) -> None:
+    """By its kind: of a rod with mass, at which end, what moves, and by how much."""
+    names = [each.name for each in held(load_scene(scene)) if each.shift is not None]
+    if not names:
+        return
+    derived = derive_request({"scene": scene, "lang": language, "release": names})
+    (steps,) = (chapter["steps"] for chapter in derived["chapters"] if chapter["id"] == "reactions")  # type: ignore[attr-defined]
+    for step in steps:
+        assert not {"{", "}"} & set(_words(step["text"]))
+        assert "_{}" not in step["latex"]
+    labels = load_scene(scene).labels
+    for found in derived["result"]["reactions"]:  # type: ignore[index]
+        (step,) = (step for step in steps if step["id"] == f"release:{found['name']}")
+        assert (found["at"] is not None) is (found["kind"] == "rod") is (found["force"] is not None)
+        if found["at"]:
+            assert f"({labels[found['at']][language].plain})" in step["text"]
+
+
+def _words(text: str) -> str:
+    """A sentence without its mathematics."""
+    return "".join(text.split("$")[::2])
 
 
 @pytest.mark.parametrize(

@@ -262,6 +262,10 @@ RELEASED = [
     pytest.param({"scene": "base-pendulum", "guides": [{"coordinate": "y", "value": "0.1*t^2"}]}, "y", id="a guide"),
     pytest.param({"scene": "slider-crank"}, "r", id="a crank among constraints"),
     pytest.param({"scene": hanging(ON_ONE_SIDE)}, "l", id="a rod beside a kink"),
+    pytest.param({"scene": "wind-on-rod"}, "l", id="a continuum at its pivot"),
+    pytest.param({"scene": "four-bar"}, "b", id="a rod with mass among constraints"),
+    pytest.param({"scene": "rolling-disc-in-space"}, "R", id="the place of a body that rolls"),
+    pytest.param({"scene": "cartesian-pendulum"}, "l", id="a rod that is a constraint"),
 ]
 
 

@@ -177,13 +177,14 @@ class StickingResult(Answer):
 
 
 class ReactionResult(Answer):
-    """What holds a length, an angle or a guided coordinate that was released in thought: δW = Z δl."""
+    """What holds a length, an angle, a guided coordinate or a displacement that was released in thought: δW = Z δl."""
 
     name: str = Field(examples=["l"])
     kind: HoldKind
     reaction: Formula = Field(description="Z, in the direction in which it grows: negative where a rod pulls")
     closed: bool = Field(description="whether no accelerations are left in it")
-    force: Formula | None = Field(description="of a length, the force −Z of rod or string, positive in tension")
+    force: Formula | None = Field(description="of a rod or string, its force −Z, positive in tension")
+    at: str | None = Field(None, description="the end of a rod with mass at which that is its force")
 
 
 class Releasable(Answer):

@@ -2,7 +2,8 @@
 
 With l let go, the scene has a coordinate more, whose equation d/dt ∂L/∂l̇ − ∂L/∂l = Q + Z has the reaction Z on the
 right, δW = Z δl. In the motion of the scene l is as it was; put in, the equation says what Z is. A length that a rod or
-string keeps has the force S = −Z, positive in tension: it pulls where l grows.
+string keeps has the force S = −Z, positive in tension: it pulls where l grows. Where l also says what bodies are made
+of, the coordinate more is a displacement u of places, which is zero in the motion.
 Source: Szabó, Höhere Technische Mechanik, §I.4; Lanczos, The Variational Principles of Mechanics, ch. III.5.
 """
 
@@ -15,7 +16,7 @@ from functools import cached_property
 import sympy as sp
 
 from ..language.display import size
-from ..mechanics.release import held, released
+from ..mechanics.release import Held, find_held, let_go
 from ..vocabulary import HoldKind
 from .accelerations import LONGEST, accelerations
 from .matrix_form import left_side
@@ -24,30 +25,49 @@ from .system import System
 
 @dataclass(frozen=True, eq=False)
 class Release:
-    """A scene's `system`, and the one in which `name` is a coordinate as well."""
+    """A scene's `system`, what it holds, and the `wider` one, in which `coordinate` is a coordinate as well."""
 
     system: System
     wider: System
-    name: str
-    kind: HoldKind
+    coordinate: str
+    held: Held
 
     @classmethod
     def of(cls, system: System, name: str, pointer: str = "/release/0") -> Release:
         """Raises UnknownNameError at the pointer where nothing holds it."""
-        wider = System(released(system.scene, name, pointer))
-        return cls(system, wider, name, next(each.kind for each in held(system.scene) if each.name == name))
+        found = find_held(system.scene, name, pointer)
+        free = let_go(system.scene, found)
+        return cls(system, System(free.scene), free.coordinate, found)
+
+    @property
+    def name(self) -> str:
+        """What is released."""
+        return self.held.name
+
+    @property
+    def kind(self) -> HoldKind:
+        """What holds it."""
+        return self.held.kind
+
+    @property
+    def is_of_rod(self) -> bool:
+        """Whether −Z is the force of one rod or string, of one with mass that at its near end."""
+        return self.kind in ("length", "rod")
 
     @cached_property
     def reaction(self) -> sp.Expr:
         """Z for any motion of the released coordinate: d/dt ∂L/∂l̇ − ∂L/∂l − Qᵈ."""
-        return left_side(self.wider, self.name)
+        return left_side(self.wider, self.coordinate)
 
     @cached_property
     def constancy(self) -> Mapping[sp.Symbol, sp.Expr]:
-        """The released coordinate as the scene holds it: constant, or by its guide, with two derivatives."""
+        """The released coordinate as the scene holds it: constant, zero, or by its guide, with two derivatives."""
         wider, system = self.wider, self.system
-        kept = {wider.rate(self.name): system.zero, wider.acceleration(self.name): system.zero}
-        return kept if self.kind != "guide" else {s: system.guides[s] for s in (wider.q(self.name), *kept)}
+        value = wider.q(self.coordinate)
+        rates = {wider.rate(self.coordinate): system.zero, wider.acceleration(self.coordinate): system.zero}
+        if self.kind == "guide":
+            return {symbol: system.guides[symbol] for symbol in (value, *rates)}
+        return rates if self.held.shift is None else {value: system.zero, **rates}
 
     @cached_property
     def in_motion(self) -> sp.Expr:

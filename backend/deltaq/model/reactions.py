@@ -12,7 +12,7 @@ from dataclasses import dataclass
 
 import symengine as se
 
-from ..mechanics.release import released
+from ..mechanics.release import find_held, let_go
 from ..mechanics.scene import Scene
 from .compiled import Compiled, compile_expressions
 from .equations import Equations, equations
@@ -55,9 +55,10 @@ def reactions(scene: Scene, names: tuple[str, ...]) -> HeldBy:
 
 
 def _reaction(scene: Scene, own: Symbols, name: str, pointer: str, multipliers: tuple[Expr, ...]) -> Expr:
-    wide_scene = released(scene, name, pointer)
-    wide = equations(wide_scene)
-    row = wide.symbols.free.index(name)
+    found = find_held(scene, name, pointer)
+    free = let_go(scene, found)
+    wide = equations(free.scene)
+    row = wide.symbols.free.index(free.coordinate)
     inertia = (
         entry * wide.symbols.accelerations[each]
         for each, entry in zip(wide.symbols.free, wide.mass_matrix[row], strict=True)
@@ -65,7 +66,7 @@ def _reaction(scene: Scene, own: Symbols, name: str, pointer: str, multipliers: 
     held = wide.constraints
     kept = (rows[row] * multipliers[k] for k, rows in enumerate(held.jacobian))
     total = sum(inertia, ZERO) - wide.forcing[row] - sum(kept, ZERO)
-    return se.sympify(total).xreplace(_own(scene, own, wide, name))
+    return se.sympify(total).xreplace(_own(scene, own, wide, free.coordinate))
 
 
 def _own(scene: Scene, own: Symbols, wide: Equations, name: str) -> Mapping[Expr, Expr]:
@@ -75,7 +76,7 @@ def _own(scene: Scene, own: Symbols, wide: Equations, name: str) -> Mapping[Expr
     rates = {there.rates[each]: own.rates[each] for each in there.free if each != name}
     accelerations = {there.accelerations[each]: own.accelerations[each] for each in there.free if each != name}
     guide = next((guide for guide in scene.guides if guide.coordinate == name), None)
-    value = own.values[name] if guide is None else to_symengine(guide.value.tree, own)
+    value = own.values.get(name, ZERO) if guide is None else to_symengine(guide.value.tree, own)
     rate = ZERO if guide is None else slope(value, own.values[CLOCK])
     acceleration = ZERO if guide is None else slope(rate, own.values[CLOCK])
     as_held = {there.values[name]: value, there.rates[name]: rate, there.accelerations[name]: acceleration}

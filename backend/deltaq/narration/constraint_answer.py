@@ -26,14 +26,16 @@ def constraint(bound: Bound, write: ExpressionWriter) -> Document:
 
 
 def reaction(release: Release, write: ExpressionWriter) -> Document:
-    """What holds what was released; of a length also the force of rod or string, which is its negative."""
-    force = release.system.display(-release.value) if release.kind == "length" else None
+    """What holds what was released; of a rod or string also its force, which is the negative."""
+    shift = release.held.shift
+    force = release.system.display(-release.value) if release.is_of_rod else None
     return {
         "name": release.name,
         "kind": release.kind,
         "reaction": write.written(release.value),
         "closed": release.closed is not None,
         "force": None if force is None else write.written(force),
+        "at": shift.rod.start if shift and shift.rod else None,
     }
 
 

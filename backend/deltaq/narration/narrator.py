@@ -176,10 +176,16 @@ class Narrator:
             return formula(with_decimal_mark(self.language, number_latex(float(value))))
         if key in WORDS:
             return joined("; ", (self._sentence(f"rules.words.{each}", {}) for each in value.split(", ") if each))
-        if key != "coordinate":
+        if key not in ("coordinate", "displacement"):
             return joined(", ", map(self.notation.symbols.label, value.split(", ")))
         latex = self.notation.symbols.coordinate_latex
-        return joined(", ", (formula(latex.get(name, name)) for name in value.split(", ")))
+        written = (latex.get(name) or self._parameter(name) for name in value.split(", "))
+        return joined(", ", map(formula, written))
+
+    def _parameter(self, name: str) -> str:
+        """LaTeX of a parameter; anything else as it is named."""
+        known = self.notation.typography.names.get(name)
+        return known.typeset if known else name
 
 
 def _terms(step: Step) -> Iterator[Summand]:

@@ -154,7 +154,7 @@ class QuantitySymbols:
         symbol = self._own(quantity.kind, pattern).format(
             of=self._index(quantity),
             i=self._colored(quantity.of, self.index(quantity.of)),
-            q=self._colored(quantity.of, self.coordinate_latex.get(quantity.of, "")),
+            q=self._colored(quantity.of, self._written(quantity.of)),
             rate=self._colored(quantity.of, dotted(self.coordinate_latex.get(quantity.of, ""))),
             part=f"^{{{self._word(quantity.part)}}}" if quantity.part else "",
         )
@@ -175,6 +175,11 @@ class QuantitySymbols:
 
     def is_varied(self, name: str) -> bool:
         return any(coordinate.name == name for coordinate in self.scene.free)
+
+    def _written(self, name: str) -> str:
+        """LaTeX of a coordinate, or of a length whose reaction is meant."""
+        symbol = self.scene.names.get(name)
+        return self.coordinate_latex.get(name, symbol.typeset if symbol else "")
 
     def _colored(self, coordinate: str, latex: str) -> str:
         names = tuple(self.coordinate_latex)

@@ -215,7 +215,7 @@ def _without(values: Floats, is_open: NDArray[np.bool_]) -> Floats:
 
 def _reactions(scene: Scene, problem: Problem) -> Document:
     """The unit of each reaction that has one value, and whether a single rod or string exerts it."""
-    single = {each.name for each in held(scene) if each.kind == "length"}
+    single = {each.name for each in held(scene) if each.kind in ("length", "rod")}
     lengths = {each.name for each in scene.parameters if each.name in single and dimension_of(each.unit) == UNITS["m"]}
     rods = {
         symbol.name

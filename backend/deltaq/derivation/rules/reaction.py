@@ -9,6 +9,7 @@ from ..formula import Explicit, Formula, Inserted, Named, Plus, Quantity, Substi
 from ..released import Release
 from ..step import Relation, Step
 from .reaction_equation import RULE as EQUATION
+from .release import displaced
 
 RULE = "reaction"
 
@@ -21,9 +22,10 @@ def apply(release: Release) -> Step:
     lines = [Relation((held, Explicit(release.in_motion)))]
     if release.accelerations is not None and release.closed is not None:
         lines.append(Relation((Inserted(Explicit(release.in_motion), release.accelerations), Explicit(release.closed))))
-    if release.kind == "length":
+    if release.is_of_rod:
         force = Named(Quantity("rod-force", name), system.display(-release.value))
         lines.append(Relation((force, Plus((minus(Explicit(release.value)),)), Explicit(force.value))))
-    about = {"coordinate": name, "outcome": f"{release.kind}{'' if release.closed is not None else '-accelerated'}"}
+    outcome = f"{release.kind}{'' if release.closed is not None else '-accelerated'}"
+    about = {"coordinate": name, "outcome": outcome, **displaced(release)}
     equations = tuple(f"equation:{q}" for q in system.free) if release.accelerations else ()
     return Step(RULE, name, tuple(lines), (), about, premises=(f"{EQUATION}:{name}", *equations))

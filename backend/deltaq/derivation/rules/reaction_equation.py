@@ -18,14 +18,14 @@ RULE = "reaction-equation"
 
 def apply(release: Release) -> Step:
     """Z by the letters, and written out for any motion of the released coordinate; its parts as substeps."""
-    wider, name = release.wider, release.name
+    wider, name, free = release.wider, release.name, release.coordinate
     lagrangian = Named(Quantity("lagrangian"), wider.lagrangian)
-    law = (Term(Rate(Partial(lagrangian, wider.rate(name)))), minus(Partial(lagrangian, wider.q(name))))
-    others = tuple(minus(term.formula, *term.sources) for term in right_terms(wider, name))
-    terms = terms_by_source(wider, name)
+    law = (Term(Rate(Partial(lagrangian, wider.rate(free)))), minus(Partial(lagrangian, wider.q(free))))
+    others = tuple(minus(term.formula, *term.sources) for term in right_terms(wider, free))
+    terms = terms_by_source(wider, free)
     written = Plus(terms) if terms else Explicit(wider.zero)
     sources = tuple(dict.fromkeys(source for term in terms for source in term.sources))
     line = Relation((Named(Quantity("reaction", name), release.reaction), Plus((*law, *others)), written))
     premises = (f"{release_rule.RULE}:{name}",)
-    step = Step(RULE, name, (line,), sources, {"coordinate": name}, premises=premises)
-    return step.with_substeps(*parts(wider, name, lagrangian))
+    step = Step(RULE, name, (line,), sources, {"coordinate": free}, premises=premises)
+    return step.with_substeps(*parts(wider, free, lagrangian))
