@@ -48,8 +48,9 @@ class KernelArguments:
     """What every kernel is given: the right-hand side, how to step, what to watch for, and where samples belong.
 
     out[i] becomes the state at times[i], as far as the run comes: `times` has shape (samples,), `out` (samples, width).
-    Series need to know whether the run `is_long`, their order, and whether they are nudged. Kernels that are run for
-    each stretch between events are so by `call`.
+    Whether the run `is_long` decides how its code is compiled, and `in_symbols` whether constraints are kept by what is
+    solved for in symbols; series need to know their order, and whether they are nudged. Kernels that are run for each
+    stretch between events are so by `call`.
     """
 
     problem: Problem
@@ -59,6 +60,7 @@ class KernelArguments:
     times: Floats
     out: Floats
     is_long: bool
+    in_symbols: bool
     order: int | None
     is_nudged: bool
     call: KernelCalls
@@ -87,7 +89,7 @@ def _partitioned(scheme: Partitioned, arguments: KernelArguments) -> Result:
     phase, count, kicked = phase_of(problem, is_long=arguments.is_long), 0, None
     if is_kicked(scheme, problem):
         phase, count = free_phase_of(problem), problem.model.layout.holonomic
-        kicked = kicked_of(scheme, problem) if arguments.is_long else None
+        kicked = kicked_of(scheme, problem) if arguments.in_symbols else None
     workspace = make_implicit_workspace(problem.state, problem.degrees, scheme.stages, count, kicked)
     weights = implicit_weights(scheme)
     return integrate_implicit(
@@ -112,6 +114,15 @@ def is_kicked(scheme: Scheme, problem: Problem) -> bool:
     return scheme.is_symplectic and (scheme.stages == 1 or bool(scheme.kicks))
 
 
+def compile_symbols(scheme: Scheme, problem: Problem) -> None:
+    """Compiles what keeps constraints in the kernel of a scheme, so that no run has it in its time."""
+    if isinstance(scheme, Partitioned) and problem.is_constrained:
+        if is_split(scheme, problem):
+            _ = problem.model.pushes
+        elif is_kicked(scheme, problem):
+            kicked_of(scheme, problem)
+
+
 def kicked_of(scheme: Partitioned, problem: Problem) -> Kicked | None:
     """What corrects a single stage on constraints as solved for in symbols, where there is a solution."""
     n, m = problem.degrees, len(problem.model.layout.multipliers)
@@ -128,7 +139,7 @@ def _split(scheme: Partitioned, arguments: KernelArguments) -> Result:
     return integrate_split(
         arguments.motion,
         free_phase_of(problem),
-        (weights, make_held(memory, weights.kicks, weights.drifts), pushed_of(problem, is_long=is_long)),
+        (weights, make_held(memory, weights.kicks, weights.drifts), pushed_of(arguments)),
         arguments.control,
         arguments.watch,
         workspace,
@@ -137,11 +148,12 @@ def _split(scheme: Partitioned, arguments: KernelArguments) -> Result:
     )
 
 
-def pushed_of(problem: Problem, *, is_long: bool) -> Pushed:
-    """What keeps kicks and drifts on constraints as solved for in symbols: in long runs, where there is a solution."""
-    model = problem.model
+def pushed_of(arguments: KernelArguments) -> Pushed:
+    """What keeps kicks and drifts on constraints as solved for in symbols, if wanted and there is a solution."""
+    problem, model = arguments.problem, arguments.problem.model
     n, m, inputs = problem.degrees, len(model.layout.multipliers), model.motion.inputs
-    found = model.pushes if is_long and 0 < problem.rank == m else None
+    is_solved = arguments.in_symbols and 0 < problem.rank == m
+    found = model.pushes if is_solved else None
     if found is None:
         return make_pushed((0, 0, 0, 0), np.zeros(1 + Places(0, 0).size), 0, 0, 0)
     given = np.zeros(inputs + Places(n, m).size)

@@ -10,7 +10,7 @@ import numpy as np
 from .constraints import Finish, Reactions, is_locked, pivot_of, seems_turned
 from .event import Approach, Event, approaches, first_event, quick_event
 from .forks import fork_crossed, fork_passed, is_at_fork
-from .integration import Flag, KernelArguments, Workspace, run_kernel
+from .integration import Flag, KernelArguments, Workspace, compile_symbols, run_kernel
 from .kernels.loop import Result
 from .kernels.motion import (
     EVENT,
@@ -40,6 +40,7 @@ from .transitions import Transition
 APART = 1e-6  # of the distance between two samples; the last one before an event is that far from it at least
 
 UNSOLVED = (NEWTON_FAILED, NOT_FINITE, STEP_UNDERFLOW)  # what a run may end with near a fork
+FEW = 200  # evaluations; with more of them steps on constraints are by symbols, whose compilation takes some 10 ms
 SHORT = 100_000  # right-hand sides; the time for so many is about that of compiling thoroughly
 
 
@@ -161,8 +162,7 @@ def run(
     task = _Task(problem, method, times, cancelled, steps, workspace or Workspace())
     model, stages, limit = problem.model, method.scheme.stages, problem.step_limit
     shortest = limit * stages <= SHORT
-    known = float(times[-1]) / steps.size * steps.ratio * stages if steps.tolerance == 0.0 else 0.0
-    if shortest or not (model.is_thorough or max(known, model.usage.evaluations) > SHORT):
+    if shortest or not (model.is_thorough or max(task.known, model.usage.evaluations) > SHORT):
         found = task.run(min(SHORT // stages, limit), is_long=False)
         model.usage.evaluations += found.result.evaluations
         if shortest or found.result.outcome not in (STEP_LIMIT, STIFF):
@@ -185,6 +185,12 @@ class _Task:
     steps: Steps
     workspace: Workspace
 
+    @property
+    def known(self) -> float:
+        """How many evaluations its fixed steps take; 0 where steps are not."""
+        steps, stages = self.steps, self.method.scheme.stages
+        return float(self.times[-1]) / steps.size * steps.ratio * stages if steps.tolerance == 0.0 else 0.0
+
     def limited(self) -> Run:
         """A run of a part of the steps; OUT_OF_REACH if all that are allowed would bring it nowhere (`reach`)."""
         part, span = self.problem.step_limit // PART, float(self.times[-1] - self.times[0])
@@ -205,6 +211,9 @@ class _Task:
         is_series = isinstance(method.scheme, Series)
         if is_series:
             jet_of_model(problem.model, is_long=is_long)  # compiled before the time is taken
+        in_symbols = is_long or self.known > FEW
+        if in_symbols:
+            compile_symbols(method.scheme, problem)
         arguments = KernelArguments(
             problem,
             workspace.motion(problem, is_long=is_long and not is_series, finish=Finish.of(method)),
@@ -213,6 +222,7 @@ class _Task:
             np.ascontiguousarray(times),  # a kernel is compiled anew for an array with strides
             np.zeros((times.size, problem.width)),
             is_long,
+            in_symbols,
             steps.order,
             steps.is_nudged,
             workspace.call,
