@@ -36,9 +36,9 @@ LENGTHS = {"m1": 1.0, "m2": 0.5, "l1": 1.0, "l2": 0.7, "g": G}
 
 @pytest.fixture(params=["by numbers", "by symbols"])
 def code(request: pytest.FixtureRequest, monkeypatch: pytest.MonkeyPatch) -> None:
-    """Short runs are by numbers; long ones by what is solved for in symbols, as all are now."""
-    if request.param == "by symbols":
-        monkeypatch.setattr(run, "SHORT", 0)
+    """The shortest runs are by numbers; others by what is solved for in symbols, as all are now."""
+    name, limit = ("SHORT", 0) if request.param == "by symbols" else ("FEW", 10**9)
+    monkeypatch.setattr(run, name, limit)
 
 
 def stepped(problem: Problem, method: str, step: float) -> Trajectory:
@@ -142,13 +142,16 @@ def test_kicks_and_drifts_lead_where_stages_solved_for_lead(
     np.testing.assert_allclose(reactions(found), reactions(known), rtol=0.0, atol=1e-9)
 
 
+@pytest.mark.parametrize("short", [0, run.SHORT], ids=["a long run", "a short run"])
 @pytest.mark.parametrize("method", METHODS)
 @pytest.mark.parametrize("case", ["one rod", "two rods", "four-bar, coupled masses", "moving pivot", "turning wire"])
-def test_long_runs_by_short_steps_need_no_numbers(case: str, method: str, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_runs_by_short_steps_need_no_numbers(
+    case: str, method: str, short: int, monkeypatch: pytest.MonkeyPatch
+) -> None:
     """Left to numbers, a step looks at the motion where it begins, too; the work is two more looks."""
     problem = HELD[case](2.0)
     assert problem.model.pushes is not None
-    monkeypatch.setattr(run, "SHORT", 0)
+    monkeypatch.setattr(run, "SHORT", short)
     found = run.run(problem, get_method(method), np.array([0.0, 2.0]), np.zeros(1, dtype=np.int64), run.Steps(1e-3))
     assert found.is_complete
     looks = 3 if problem.model.layout.is_powered else 1

@@ -8,7 +8,7 @@ from functools import cache, singledispatch
 import numpy as np
 from numpy.typing import NDArray
 
-from ..model.pushes import Places
+from ..model.pushes import Places, Pushes
 from ..model.recurrences import nudged
 from .constraints import Finish, block, solved_in
 from .kernels.compiler import KernelCalls
@@ -118,7 +118,7 @@ def compile_symbols(scheme: Scheme, problem: Problem) -> None:
     """Compiles what keeps constraints in the kernel of a scheme, so that no run has it in its time."""
     if isinstance(scheme, Partitioned) and problem.is_constrained:
         if is_split(scheme, problem):
-            _ = problem.model.pushes
+            pushes_of(problem)
         elif is_kicked(scheme, problem):
             kicked_of(scheme, problem)
 
@@ -148,12 +148,16 @@ def _split(scheme: Partitioned, arguments: KernelArguments) -> Result:
     )
 
 
+def pushes_of(problem: Problem) -> Pushes | None:
+    """What is solved for in symbols, where there is a solution, and all multipliers are unique."""
+    return problem.model.pushes if 0 < problem.rank == len(problem.model.layout.multipliers) else None
+
+
 def pushed_of(arguments: KernelArguments) -> Pushed:
     """What keeps kicks and drifts on constraints as solved for in symbols, if wanted and there is a solution."""
     problem, model = arguments.problem, arguments.problem.model
     n, m, inputs = problem.degrees, len(model.layout.multipliers), model.motion.inputs
-    is_solved = arguments.in_symbols and 0 < problem.rank == m
-    found = model.pushes if is_solved else None
+    found = pushes_of(problem) if arguments.in_symbols else None
     if found is None:
         return make_pushed((0, 0, 0, 0), np.zeros(1 + Places(0, 0).size), 0, 0, 0)
     given = np.zeros(inputs + Places(n, m).size)
