@@ -4754,6 +4754,24 @@ export interface components {
             cache: components["schemas"]["CacheHealth"];
         };
         /**
+         * HeldReactionResult
+         * @description What holds something that was released while dry friction sticks, or while a contact rests.
+         */
+        HeldReactionResult: {
+            /**
+             * Kind
+             * @enum {string}
+             */
+            kind: "friction" | "contact";
+            /**
+             * Name
+             * @description of the load with friction, or of the event
+             */
+            name: string;
+            /** @description Z then; null where it would be too long, or constraints take part */
+            reaction: components["schemas"]["Formula"] | null;
+        };
+        /**
          * ImpactResult
          * @description What an impact does: the momenta jump by Λ ∂g/∂q, such that ġ⁺ = −e ġ⁻. Rates are those before it.
          */
@@ -6628,6 +6646,16 @@ export interface components {
             predicted: number | null;
         };
         /**
+         * ReactionImpulseResult
+         * @description What holds something that was released at an impact.
+         */
+        ReactionImpulseResult: {
+            /** Event */
+            event: string;
+            /** @description by the rates before it; its unit is that of the reaction times s */
+            impulse: components["schemas"]["Formula"];
+        };
+        /**
          * ReactionKind
          * @description What a reaction is a quantity of.
          */
@@ -6673,6 +6701,23 @@ export interface components {
              * @description the end of a rod with mass at which that is its force
              */
             at?: string | null;
+            /**
+             * Held
+             * @description where `reaction` is that of slipping and of open contacts: what it is while one holds
+             * @default []
+             */
+            held: components["schemas"]["HeldReactionResult"][];
+            /**
+             * Impulses
+             * @default []
+             */
+            impulses: components["schemas"]["ReactionImpulseResult"][];
+            /**
+             * Shared With
+             * @description loads with friction that may hold it as well: `reaction` is what they exert together
+             * @default []
+             */
+            shared_with: string[];
         };
         /**
          * Readiness
@@ -7799,7 +7844,7 @@ export interface components {
             } | null;
             /**
              * Multipliers
-             * @description of constraints, as far as they are unique (of a distance the force, positive in tension), and Z of each name in `release`, in the direction in which it grows; null where they are `indeterminate`
+             * @description of constraints, as far as they are unique (of a distance the force, positive in tension), and Z of each name in `release`, in the direction in which it grows; null where they are `indeterminate`, without the `impulses` of `events`
              */
             multipliers?: {
                 [key: string]: components["schemas"]["PartialColumn"];
@@ -9261,6 +9306,13 @@ export interface components {
              * @description further contacts that pushed at that time, one after the other in this order
              */
             together: string[];
+            /**
+             * Impulses
+             * @description of an impact, if `loads` or `multipliers` were asked for: by name, of contacts that pushed, of constraints and of what is in `release`, as far as they are unique, in the unit of the force times s
+             */
+            impulses: {
+                [key: string]: number;
+            };
         };
         /**
          * TwinRuns

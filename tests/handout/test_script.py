@@ -17,9 +17,10 @@ from tests.derivation.scenes import constrained
 from tests.simulation.carts import Cart, Train
 from tests.simulation.carts import drawn as carts
 from tests.simulation.constrained import G, platform
+from tests.simulation.rods import block, friction, rod, wind
+from tests.simulation.test_impact import contact
 from tests.simulation.test_reactions import hanging
 
-from deltaq.errors import RequestError
 from deltaq.handout.script import comment, script
 from deltaq.handout.service import export_request
 from deltaq.language.functions import SPELLINGS
@@ -279,15 +280,36 @@ def test_program_tells_what_holds_the_released(request_: dict[str, object], name
     np.testing.assert_allclose(program["reactions"](times, q, v)[0], shown["multipliers"][name], atol=1e-7)
 
 
-def test_no_program_of_a_release_where_motions_jump() -> None:
-    scene = document_of("catching-pendulum")
-    scene["parameters"] = [*scene["parameters"], {"name": "h", "unit": "m", "value": 0.1}]
-    scene["bodies"][0]["position"][1] += " + h"
-    with pytest.raises(RequestError) as caught:
-        export_request({"form": "python", "scene": scene, "release": ["h"]})
-    assert [(problem.code, problem.pointer) for problem in caught.value.problems] == [
-        ("release-with-impacts", "/release")
-    ]
+JUMPING = [
+    pytest.param(rod(friction("l*phi", 1.0, 8.0)), {"stick", "turn"}, id="friction along the arc"),
+    pytest.param(rod(events=(contact("wall", "l*sin(phi) + 0.3", 0.5),)), {"impact"}, id="a wall"),
+    pytest.param(
+        rod(wind(-30.0), friction("l*phi", 1.0, 1.5), events=(contact("wall", "l*sin(phi) + 0.3", 0.0),)),
+        {"rest"},
+        id="pressed to a wall, with friction",
+    ),
+]
+
+
+@pytest.mark.parametrize(("scene", "kinds"), JUMPING)
+def test_program_tells_what_holds_where_motions_jump(scene: dict[str, Any], kinds: set[str], tmp_path: Path) -> None:
+    asked = {"scene": scene, "t_end": 8.0, "release": ["l"]}
+    program = executed(str(export_request({"form": "python", **asked})["text"]), tmp_path)
+    times, q, v = program["solve"]()
+    shown: Any = run({**asked, "samples": len(times), "tolerance": 1e-10, "include": ["multipliers"]})
+    known = np.array(shown["multipliers"]["l"], dtype=float)[same_times(times, shown)]
+    away = np.array([all(abs(t - each["time"]) > 1e-6 for each in shown["events"]) for t in times])
+    compared = away & ~np.isnan(known)
+    assert {each["kind"] for each in shown["events"]} >= kinds
+    assert compared.sum() > 10
+    np.testing.assert_allclose(program["reactions"](times, q, v)[0][compared], known[compared], rtol=1e-6, atol=1e-6)
+
+
+def test_program_says_that_friction_holds_what_a_guide_does(tmp_path: Path) -> None:
+    text = str(export_request({"form": "python", "scene": block({"x": "0", "y": "0"}), "release": ["x"]})["text"])
+    assert "in the direction in which it grows; with it what friction holds: dry" in text
+    program = executed(text, tmp_path)
+    np.testing.assert_allclose(program["reactions"](*program["solve"]())[0], -5.0)
 
 
 @pytest.mark.parametrize("curve", ["y = 1/cos(x)", "y = x*(1 + t)", "y = sin(2*x) + 1"])

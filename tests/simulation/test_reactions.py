@@ -9,9 +9,7 @@ import pytest
 from tests.simulation.constrained import G
 from tests.simulation.test_constraints import swing
 
-from deltaq.errors import Problem, RequestError, UnknownNameError
-from deltaq.mechanics.library import load_scene
-from deltaq.mechanics.writing import write_scene
+from deltaq.errors import UnknownNameError
 from deltaq.simulation.service import run
 
 PENDULUM = {"scene": "pendulum", "t_end": 5.0, "samples": 51, "tolerance": 1e-11}
@@ -33,15 +31,6 @@ def test_the_force_of_a_guide_does_the_work_that_the_motion_takes_up() -> None:
     work = np.concatenate([[0.0], np.cumsum(0.5 * (power[1:] + power[:-1]) * np.diff(found["t"]))])
     assert np.ptp(work) > 1.0
     assert np.abs(work - (total - total[0])).max() < 1e-4 * np.ptp(work)
-
-
-def test_no_reaction_is_told_where_accelerations_are_those_of_several_modes() -> None:
-    rough: Any = write_scene(load_scene("pendulum"))
-    rough["loads"].append({"name": "rough", "kind": "friction", "coordinate": "phi", "force": "0.1*m"})
-    assert run({**PENDULUM, "scene": rough})["status"] == "ok"
-    with pytest.raises(RequestError) as caught:
-        run({**PENDULUM, "scene": rough, "release": ["l"]})
-    assert caught.value.problems == (Problem("release-with-friction", "/release", parameters={"names": "rough"}),)
 
 
 KINKED = [

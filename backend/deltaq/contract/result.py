@@ -176,6 +176,21 @@ class StickingResult(Answer):
     largest: Formula
 
 
+class HeldReactionResult(Answer):
+    """What holds something that was released while dry friction sticks, or while a contact rests."""
+
+    kind: Literal["friction", "contact"]
+    name: str = Field(description="of the load with friction, or of the event")
+    reaction: Formula | None = Field(description="Z then; null where it would be too long, or constraints take part")
+
+
+class ReactionImpulseResult(Answer):
+    """What holds something that was released at an impact."""
+
+    event: str
+    impulse: Formula = Field(description="by the rates before it; its unit is that of the reaction times s")
+
+
 class ReactionResult(Answer):
     """What holds a length, an angle, a guided coordinate or a displacement that was released in thought: δW = Z δl."""
 
@@ -185,6 +200,13 @@ class ReactionResult(Answer):
     closed: bool = Field(description="whether no accelerations are left in it")
     force: Formula | None = Field(description="of a rod or string, its force −Z, positive in tension")
     at: str | None = Field(None, description="the end of a rod with mass at which that is its force")
+    held: tuple[HeldReactionResult, ...] = Field(
+        (), description="where `reaction` is that of slipping and of open contacts: what it is while one holds"
+    )
+    impulses: tuple[ReactionImpulseResult, ...] = ()
+    shared_with: tuple[str, ...] = Field(
+        (), description="loads with friction that may hold it as well: `reaction` is what they exert together"
+    )
 
 
 class Releasable(Answer):

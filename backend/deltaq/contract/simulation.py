@@ -150,6 +150,10 @@ class TransitionAnswer(Answer):
     together: list[str] = Field(
         description="further contacts that pushed at that time, one after the other in this order"
     )
+    impulses: dict[str, float] = Field(
+        description="of an impact, if `loads` or `multipliers` were asked for: by name, of contacts that pushed, of"
+        " constraints and of what is in `release`, as far as they are unique, in the unit of the force times s"
+    )
 
 
 class ContactAnswer(Answer):
@@ -219,7 +223,8 @@ class SimulationAnswer(Answer):
     multipliers: dict[str, PartialColumn] | None = Field(
         None,
         description="of constraints, as far as they are unique (of a distance the force, positive in tension), and Z of"
-        " each name in `release`, in the direction in which it grows; null where they are `indeterminate`",
+        " each name in `release`, in the direction in which it grows; null where they are `indeterminate`, without the"
+        " `impulses` of `events`",
     )
     reactions: dict[str, ReactionKind] | None = Field(None, description="what each of the `multipliers` is")
     undetermined: tuple[str, ...] | None = Field(

@@ -12,9 +12,10 @@ from ..mechanics.scene import Scene
 from ..packages import modules_of
 from . import model_chapter
 from .grounds import Grounds
+from .held_reactions import held_reactions, reaction_impulses
 from .normal_algebra import NormalAlgebra
 from .released import Release
-from .rules import reaction, reaction_equation
+from .rules import held_reaction, reaction, reaction_equation, reaction_impulse
 from .rules import release as release_rule
 from .step import Chapter, Derivation, Step
 from .system import System
@@ -60,9 +61,15 @@ def reactions(release: Release) -> Chapter:
     """
     wider = release.wider
     points, grounds = tuple(random_points(wider)), _grounds(wider)
-    rules = (release_rule, reaction_equation, reaction)
-    told = tuple(verified_step(_marked(rule.apply(release), release.name), points) for rule in rules)
+    told = tuple(verified_step(_marked(step, release.name), points) for step in _reaction_steps(release))
     return grounds.of_chapter(Chapter("reactions", told))
+
+
+def _reaction_steps(release: Release) -> Iterator[Step]:
+    """Z, then what it is while something sticks or rests, and at impacts."""
+    yield from (rule.apply(release) for rule in (release_rule, reaction_equation, reaction))
+    yield from (held_reaction.apply(release, each) for each in held_reactions(release))
+    yield from (reaction_impulse.apply(release, each) for each in reaction_impulses(release))
 
 
 def _marked(step: Step, name: str) -> Step:

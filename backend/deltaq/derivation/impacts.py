@@ -230,31 +230,39 @@ def after(system: System, found: Impact) -> dict[sp.Symbol, sp.Expr]:
 def holding_force(system: System, load: Friction) -> Held | None:
     """What holds a coordinate c that sticks: from c̈ = u̇ and M q̈ = f + R ∂c/∂q. None where that is not to be read."""
     c = system.slipping(load)
-    row = sp.ImmutableMatrix([system.derivative(c, system.q(q)) for q in system.free])
+    others = [f - system.load_force(load.source, q) for f, q in zip(forcing(system), system.free, strict=True)]
+    return _held(system, c, system.slip_rate(load), others)
+
+
+@cached_method
+def contact_force(system: System, event: Event) -> Held | None:
+    """λ of a contact that stays closed: from g̈ = 0 and M q̈ = f + λ ∂g/∂q. None where that is not to be read."""
+    return _held(system, gap(system, event), gap_rate(system, event), list(forcing(system)))
+
+
+def _held(system: System, place: sp.Expr, rate: sp.Expr, others: list[sp.Expr]) -> Held | None:
+    """The force along ∂g/∂q of a place g that keeps its rate, which is zero, beside others."""
+    row = sp.ImmutableMatrix([system.derivative(place, system.q(q)) for q in system.free])
     mass = mass_matrix(system)
     if system.conditions or row.is_zero_matrix or sum(map(size, mass)) > MOST_GIVEN:
         return None
     inverse = inverse_of(system, mass) if len(system.free) <= MOST_COORDINATES else None
     if inverse is None:
         return None
-    at_rest = _sticking(system, load)
-    others = sp.ImmutableMatrix(
-        [f - system.load_force(load.source, q) for f, q in zip(forcing(system), system.free, strict=True)]
-    )
-    still = {system.acceleration(q): system.zero for q in system.free}
-    bias = system.shown_rate(system.slip_rate(load)).xreplace(still)
-    load_on = (row.T * inverse * others)[0] + bias
-    force = system.display((-load_on / (row.T * inverse * row)[0]).xreplace(at_rest))
-    accelerations = inverse * (others + row * force)
-    moved = {system.acceleration(q): a.xreplace(at_rest) for q, a in zip(system.free, accelerations, strict=True)}
-    return None if size(force) > LONGEST else Held(force, at_rest | moved)
+    loads, still = sp.ImmutableMatrix(others), {system.acceleration(q): system.zero for q in system.free}
+    load_on = (row.T * inverse * loads)[0] + system.shown_rate(rate).xreplace(still)
+    known = _kept_rate(system, place, rate)
+    force = system.display((-load_on / (row.T * inverse * row)[0]).xreplace(known))
+    accelerations = inverse * (loads + row * force)
+    moved = {system.acceleration(q): a.xreplace(known) for q, a in zip(system.free, accelerations, strict=True)}
+    return None if size(force) > LONGEST else Held(force, known | moved)
 
 
-def _sticking(system: System, load: Friction) -> dict[sp.Symbol, sp.Expr]:
-    """The rate of a coordinate that sticks is that of its surface."""
-    c = system.slipping(load)
-    own = next((q for q in system.free if system.q(q) == c), None)
-    return {} if own is None else {system.rate(own): system.guided(system.expression(load.surface_rate))}
+def _kept_rate(system: System, place: sp.Expr, rate: sp.Expr) -> dict[sp.Symbol, sp.Expr]:
+    """q̇ that a rate Σ aᵢ q̇ᵢ + b of zero leaves, where a place changes with one coordinate alone."""
+    along = {q: system.derivative(place, system.q(q)) for q in system.free if place.has(system.q(q))}
+    alone = system.display(rate.xreplace(system.zero_rates))
+    return {system.rate(q): system.display(-alone / slope) for q, slope in along.items() if len(along) == 1}
 
 
 @dataclass(frozen=True)

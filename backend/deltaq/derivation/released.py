@@ -72,8 +72,12 @@ class Release:
     @cached_property
     def in_motion(self) -> sp.Expr:
         """Z in the scene's own motion, with its accelerations, in the scene's own symbols."""
+        return self.as_held(self.reaction)
+
+    def as_held(self, expression: sp.Expr) -> sp.Expr:
+        """What an expression of the wider system is in the scene's own motion."""
         own = {self.wider.q(self.name): self.system.q(self.name)} if self.kind != "guide" else {}
-        return self.system.display(self.reaction.xreplace(dict(self.constancy)).xreplace(own))
+        return self.system.display(expression.xreplace(dict(self.constancy)).xreplace(own))
 
     @cached_property
     def accelerations(self) -> Mapping[sp.Symbol, sp.Expr] | None:

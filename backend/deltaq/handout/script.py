@@ -11,6 +11,7 @@ import unicodedata
 from collections.abc import Iterator, Mapping, Sequence
 
 from ..derivation.calculus import column
+from ..derivation.held_reactions import rivals
 from ..derivation.matrix_form import mass_matrix
 from ..derivation.released import Release
 from ..derivation.system import System
@@ -20,7 +21,7 @@ from ..mechanics.jumps import jumps
 from ..mechanics.scene import Scene
 from ..mechanics.user_text import UserText
 from ..narration.derive import releases_of
-from .switching import SWITCHING, dynamics, smooth_forcing, switches
+from .switching import HELD, SWITCHING, dynamics, released, smooth_forcing, switches
 from .words import Words, event_symbol
 
 TEMPLATE = """\
@@ -193,10 +194,12 @@ def {name}(t, state):  # {title}
 
 
 """
+RELEASED = """\
+HELD = {held}  # what is held, and by what reaction, in the direction in which it grows{shared}
+
+
+"""
 REACTIONS = """\
-HELD = {held}  # what is held, and by what reaction, in the direction in which it grows
-
-
 def reactions(times, q, v):
     return np.array([reaction(*state) for state in zip(times, q.T, v.T)]).T
 
@@ -209,19 +212,17 @@ def reaction(t, q, v):
 
 
 """
-TEMPLATES = (TEMPLATE, FREE, CONSTRAINED, LEAST, REACTIONS, SWITCHING)
+TEMPLATES = (TEMPLATE, FREE, CONSTRAINED, LEAST, RELEASED, REACTIONS, SWITCHING, HELD)
 SAMPLES_PER_SECOND = 30
 
 
 def script(scene: Scene, language: str, t_end: float, release: Sequence[str] = ()) -> str:
     """The program: it prints the motion from the scene's own initial values as a table, with what holds the `release`.
 
-    Raises UnknownNameError for what cannot be released, RequestError for a release where motions jump or stick.
+    Raises UnknownNameError for what cannot be released, RequestError for constraints where motions jump or stick.
     """
     system = System(scene)
     releases = releases_of(system, release)
-    if releases:
-        _refuse(scene, Problem("release-with-impacts", "/release"), Problem("release-with-friction", "/release"))
     words = Words(system, TEMPLATES)
     free = scene.free
     unpacked = {
@@ -265,19 +266,23 @@ def _refuse(scene: Scene, impacts: Problem, friction: Problem) -> None:
 
 def _released(releases: Sequence[Release], system: System, words: Words, content: Mapping[str, str]) -> dict[str, str]:
     """The dynamics with the reactions of what is released, as further columns."""
-    accelerations = ", ".join(words.called(system.acceleration(q).name) for q in system.free)
-    found = f"[{accelerations}] = np.linalg.solve(mass_matrix(t, q), forcing(t, q, v))"
-    if system.conditions:
-        held = ", ".join(words.called(symbol.name) for symbol in system.multipliers)
-        found = f"[{accelerations}], [{held}] = accelerations_and_multipliers(t, q, v)"
-    parts = {
-        "held": repr([each.name for each in releases]),
-        "unpack_accelerations": found,
-        "reactions": words.vector(column(each.in_motion for each in releases)),
-    }
+    accelerations = f"[{', '.join(words.called(system.acceleration(q).name) for q in system.free)}]"
+    shared = dict.fromkeys(name for each in releases for name in rivals(each))
+    told = f"; with it what friction holds: {', '.join(shared)}" if shared else ""
+    parts = {"held": repr([each.name for each in releases]), "shared": comment(told)}
+    if switches(system):
+        parts |= {**released(releases, system, words), "unpack_accelerations": accelerations}
+        functions = HELD.format(**content, **parts)
+    else:
+        found = f"{accelerations} = np.linalg.solve(mass_matrix(t, q), forcing(t, q, v))"
+        if system.conditions:
+            held = ", ".join(words.called(symbol.name) for symbol in system.multipliers)
+            found = f"{accelerations}, [{held}] = accelerations_and_multipliers(t, q, v)"
+        in_motion = words.vector(column(each.in_motion for each in releases))
+        functions = REACTIONS.format(**content, unpack_accelerations=found, reactions=in_motion)
     columns = "COORDINATES, *MULTIPLIERS" if system.conditions else "COORDINATES"
     return {
-        "dynamics": content["dynamics"] + REACTIONS.format(**content, **parts),
+        "dynamics": content["dynamics"] + RELEASED.format(**parts) + functions,
         "columns": f"[*{columns}, *(f'Z_{{name}}' for name in HELD)]",
         "further": f"{content['further']}, *reactions(times, q, v)",
     }

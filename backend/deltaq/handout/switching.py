@@ -8,18 +8,18 @@ Source: Pfeiffer, Glocker, Multibody Dynamics with Unilateral Contacts, ch. 4–
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from dataclasses import replace
+from collections.abc import Mapping, Sequence
 
 import sympy as sp
 
 from ..derivation.calculus import column
+from ..derivation.held_reactions import gap_slope, slip_slope
 from ..derivation.matrix_form import forcing
+from ..derivation.released import Release
 from ..derivation.system import System
 from ..language.derivatives import diff
 from ..mechanics.contributions import Friction
-from ..mechanics.loads.friction import DryFriction
-from ..mechanics.reader import NOTHING
+from ..mechanics.jumps import without_dry_friction
 from .words import Words
 
 SWITCHING = """\
@@ -152,7 +152,11 @@ def settled(t, q, v, slips, held, event):  # how it goes on behind an event, Non
     raise SystemExit("Nothing tells what is held and what is let go")
 
 
+MODES = []  # of each sample: which way it slips, which rows are held
+
+
 def solve(t_end=T_END, samples=SAMPLES):
+    MODES.clear()
     times = np.linspace(0.0, t_end, samples)
     t, q, v, states = 0.0, np.array(VALUES), np.array(RATES), []
     slips, held = np.ones(FRICTIONS), np.zeros(len(rows(t, q, v)[1]), dtype=bool)
@@ -188,6 +192,7 @@ def solve(t_end=T_END, samples=SAMPLES):
         if any((friction(t, *np.split(state, 2)) < -1e-9).any() for t, state in zip(found.t, shown)):
             raise SystemExit("A friction becomes negative: it would drive what slips")
         states.extend(shown)
+        MODES.extend([(slips, held)] * len(shown))
         event = next((k for k, instants in enumerate(found.t_events) if len(instants)), None)
         if found.status == 0 or event < {endings}:
             break
@@ -197,6 +202,24 @@ def solve(t_end=T_END, samples=SAMPLES):
         raise SystemExit("There are 10,000 events, and more to come")
     states = np.array(states).T
     return times[: states.shape[1]], states[: len(VALUES)], states[len(VALUES) :]
+
+
+"""
+
+
+HELD = """\
+def reaction(t, q, v, mode):
+    {unpack_values}
+    {unpack_rates}
+    slips, held = mode
+    {unpack_accelerations}, forces = accelerations_and_reactions(t, q, v, slips, held)
+    slipping = np.concatenate([-slips * friction(t, q, v)[0], np.zeros(len(held) - FRICTIONS)])
+    shares = np.array({shares}, dtype=float).reshape(len(HELD), -1)  # of what rubs and touches, by what is held
+    return np.array({reactions}, dtype=float) - shares @ np.where(held, forces, slipping)
+
+
+def reactions(times, q, v):
+    return np.array([reaction(*state) for state in zip(times, q.T, v.T, MODES)]).T
 
 
 """
@@ -215,9 +238,22 @@ def frictions(system: System) -> tuple[Friction, ...]:
 
 def smooth_forcing(system: System) -> sp.ImmutableMatrix:
     """f of M q̈ = f without dry friction."""
-    scene = system.scene
-    loads = tuple(replace(load, force=NOTHING) if isinstance(load, DryFriction) else load for load in scene.loads)
-    return forcing(system if loads == scene.loads else System(replace(scene, loads=loads)))
+    smooth = without_dry_friction(system.scene)
+    return forcing(system if smooth == system.scene else System(smooth))
+
+
+def released(releases: Sequence[Release], system: System, words: Words) -> dict[str, str]:
+    """Z of each without what rubs and touches, and the shares of that, a row for each name."""
+    rubbing, bouncing = frictions(system), [event for event in system.scene.events if event.bounces]
+    smooth = [
+        each.as_held(each.reaction + sp.Add(*(each.wider.load_force(part.source, each.coordinate) for part in rubbing)))
+        for each in releases
+    ]
+    shares = [
+        [*(slip_slope(each, part) for part in rubbing), *(gap_slope(each, event) for event in bouncing)]
+        for each in releases
+    ]
+    return {"shares": words.matrix(sp.ImmutableMatrix(shares)), "reactions": words.vector(column(smooth))}
 
 
 def dynamics(system: System, words: Words, content: Mapping[str, str], ending: str) -> str:

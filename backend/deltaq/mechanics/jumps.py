@@ -3,10 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import replace
 
 from ..errors import Problem
 from ..language.tree import Name, walk
 from .contributions import Friction
+from .loads.friction import DryFriction
+from .reader import NOTHING
 from .scene import Scene
 
 MOST = 80  # characters of names in a sentence
@@ -22,6 +25,16 @@ def frictions_of(scene: Scene) -> tuple[Friction, ...]:
     guided = {guide.coordinate for guide in scene.guides}
     found = (part for part in scene.contributions if isinstance(part, Friction))
     return tuple(part for part in found if not _names(part) <= guided)
+
+
+def without_dry_friction(scene: Scene) -> Scene:
+    """The scene without the forces of dry friction, which are reactions where something sticks."""
+    rubbing = {part.source for part in frictions_of(scene)}
+    loads = (
+        replace(load, force=NOTHING) if isinstance(load, DryFriction) and load.name in rubbing else load
+        for load in scene.loads
+    )
+    return replace(scene, loads=tuple(loads))
 
 
 def _names(part: Friction) -> set[str]:

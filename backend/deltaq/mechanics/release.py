@@ -105,7 +105,7 @@ def _held_length(scene: Scene, length: Parameter, *, is_placed: bool, is_pure: b
     is_tied = _is_length_of_constraint(scene, name) or (shift is not None and _is_in_equation(scene, name))
     if is_pure and (is_placed or is_tied) and (shift is None or _is_free_of(shift, is_placed=is_placed)):
         return Held(name, "lengths" if _is_shared(scene, name) else "length")
-    if _load_of_coordinates(scene, name):
+    if _load_of_coordinates(scene, name) or _gap_with(scene, name):
         return None
     if shift is not None and shift.is_along_rod:
         return Held(name, "rod", shift)
@@ -146,6 +146,11 @@ def _load_of_coordinates(scene: Scene, name: str) -> str | None:
     return next((each.name for each in loads if name in names_in(tuple(vars(each).values()))), None)
 
 
+def _gap_with(scene: Scene, name: str) -> str | None:
+    """A contact whose gap has this length in it: whether it goes with a place is not said."""
+    return next((each.name for each in scene.events if each.bounces and name in each.value.names), None)
+
+
 def _refusal(scene: Scene, name: str) -> tuple[str, dict[str, str]]:
     """The code that says why a parameter cannot be released, and what it names."""
     length = next((p for p in scene.parameters if p.name == name and _kind(dimension_of(p.unit)) == "length"), None)
@@ -156,6 +161,9 @@ def _refusal(scene: Scene, name: str) -> tuple[str, dict[str, str]]:
     load = _load_of_coordinates(scene, name)
     if load and (bounded or next(placed, None)):
         return "cannot-release-of-load", {"load": load}
+    gap = _gap_with(scene, name)
+    if gap and (bounded or next(placed, None)):
+        return "cannot-release-of-contact", {"event": gap}
     return ("cannot-release-limit", {"body": bounded}) if bounded else ("cannot-release", {})
 
 

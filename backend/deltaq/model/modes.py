@@ -17,7 +17,7 @@ Discontinuous Righthand Sides, §4; Utkin, Sliding Modes in Control and Optimiza
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property, lru_cache
 from itertools import combinations
@@ -194,13 +194,27 @@ def _in_modes(scene: Scene) -> Equations:
     return _Assembly(scene).equations
 
 
-def in_modes(scene: Scene, expressions: Sequence[Expr]) -> tuple[tuple[Expr, ...], list[Expr]]:
-    """What a scene's model in modes reads, and expressions of its motion there: with the signs that it has, or holds.
+@dataclass(frozen=True)
+class InModes:
+    """What a scene's model in modes reads, λ of every row, and in terms of them the forces of what rubs and touches.
 
-    A kink in them that the motion does not meet is one of the state as it stands.
+    `frictions` are R of each, −σF while slipping and λ while sticking; `contacts` λ of each by the number of its event,
+    0 while open. `in_motion` is an expression along the motion, without friction: with the signs that it has, or holds.
+    A kink in it that the motion does not meet is one of the state as it stands.
     """
-    found = _Assembly(scene)
-    return found.symbols.inputs, [found.in_motion(each) for each in expressions]
+
+    inputs: tuple[Expr, ...]
+    reactions: tuple[Expr, ...]
+    frictions: tuple[Expr, ...]
+    contacts: Mapping[int, Expr]
+    in_motion: Callable[[Expr], Expr]
+
+
+def in_modes(scene: Scene) -> InModes:
+    """The forces of a scene in its modes."""
+    found = _WithLetters(scene)
+    forces = tuple(found.friction_forces()), found.contact_forces()
+    return InModes(found.symbols.inputs, found.reactions, *forces, found.in_motion)
 
 
 def enumerated_bounds(scene: Scene, frictions: Sequence[Friction]) -> Iterator[tuple[int, Node]]:
@@ -429,13 +443,25 @@ class _Assembly:
             found += [event, slope(event, self.plain.symbols.time), coefficient]
         pins = self.switches[len(self.switches) - self.pins :]
         values = (self.signs.values[i] for i in (*self.kinks, *pins))
-        return [*found, *values, *self.reactions, *self._friction_forces()]
+        return [*found, *values, *self.reactions, *self.friction_forces()]
 
-    def _friction_forces(self) -> Iterator[Expr]:
+    def contact_forces(self) -> Mapping[int, Expr]:
+        """φ λ of each contact, by the number of its event."""
+        held = zip(self.flags[len(self.bounded) :], self.reactions[len(self.bounded) :], strict=True)
+        return {index: flag * reaction for index, (flag, reaction) in zip(self.contacts, held, strict=True)}
+
+    def friction_forces(self) -> Iterator[Expr]:
         """R = φ λ − (1 − φ) σ F"""
         for k, part in enumerate(self.frictions):
             flag, force = self.flags[k], self._of_friction(part.force)
             yield flag * self.reactions[k] - (ONE - flag) * self.bounded[k] * self._between(force)
+
+
+class _WithLetters(_Assembly):
+    """The same with a letter for λ of each row, of which the forces are linear functions then."""
+
+    def _reactions(self) -> tuple[Expr, ...]:
+        return tuple(se.Symbol(f"held{k}") for k in range(len(self.rows)))
 
 
 @dataclass(frozen=True)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from ..derivation.held_reactions import held_reactions, reaction_impulses, rivals
 from ..derivation.impacts import Contact, Impact, Sticking
 from ..derivation.released import Release
 from ..derivation.result import Bound
@@ -36,7 +37,24 @@ def reaction(release: Release, write: ExpressionWriter) -> Document:
         "closed": release.closed is not None,
         "force": None if force is None else write.written(force),
         "at": shift.rod.start if shift and shift.rod else None,
+        **({"held": held_ones} if (held_ones := _held(release, write)) else {}),
+        **({"impulses": impulses} if (impulses := _impulses(release, write)) else {}),
+        **({"shared_with": list(shared)} if (shared := rivals(release)) else {}),
     }
+
+
+def _held(release: Release, write: ExpressionWriter) -> list[Document]:
+    """Z while something sticks or rests."""
+    return [
+        {"kind": each.kind, "name": each.name, "reaction": None if each.value is None else write.written(each.value)}
+        for each in held_reactions(release)
+    ]
+
+
+def _impulses(release: Release, write: ExpressionWriter) -> list[Document]:
+    """Ẑ at impacts."""
+    found = reaction_impulses(release)
+    return [{"event": each.event.name, "impulse": write.written(each.value)} for each in found]
 
 
 def releasable(scene: Scene, write: ExpressionWriter) -> list[Document]:

@@ -43,6 +43,8 @@ SYMBOLS: Mapping[str, tuple[str, str]] = {
     "constraint-matrix": (r"\mathbf{{A}}", ""),
     "reaction-work": (r"\delta W^{{z}}{of}", "constraint-{name}"),
     "reaction": ("Z_{{{q}}}", ""),
+    "held-reaction": ("Z_{{{q}}}^{{h}}", ""),
+    "reaction-impulse": (r"\hat Z_{{{q}}}", ""),
     "rod-force": ("S_{{{q}}}", ""),
     "gap": ("g_{{N}}{of}", ""),
     "gap-rate-behind": (r"\dot g_{{N}}^{{+}}", ""),

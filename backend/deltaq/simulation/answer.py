@@ -20,6 +20,7 @@ from .columns import WRITERS, Writer, as_numbers
 from .constraints import Reactions
 from .estimate import Estimate
 from .friction import FrictionForce
+from .impulses import impulses_along
 from .indeterminate import IndeterminateForces
 from .outcome import Outcome
 from .problem import Floats, Moved, Problem
@@ -77,7 +78,7 @@ def answer(
         "reason": _told(trajectory.outcome),
         "remedy": _told(trajectory.outcome),
         "event": _event(request, trajectory),
-        "events": _transitions(trajectory.transitions[:MOST_TOLD]),
+        "events": _transitions(request, problem, trajectory.transitions[:MOST_TOLD]),
         "indeterminate": _indeterminate_spans(acting.indeterminate, trajectory),
         "method": choice.method.id,
         "choice": {"code": choice.reason, "parameters": {}} if choice.reason else None,
@@ -140,9 +141,11 @@ def _event(request: Request, trajectory: Trajectory) -> Document | None:
     return {"name": event.name, "title": plainly(event.title), "t": time, "error": error}
 
 
-def _transitions(found: tuple[Transition, ...]) -> list[Document]:
+def _transitions(request: Request, problem: Problem, found: tuple[Transition, ...]) -> list[Document]:
     """The events behind which the motion went on; their times are rounded to what their errors support."""
     times = _times([each.time for each in found], [each.error for each in found])
+    is_asked = not request.include.isdisjoint({"loads", "multipliers"})
+    impulses = impulses_along(problem, found) if is_asked else ({},) * len(found)
     return [
         {
             "name": each.name,
@@ -151,8 +154,9 @@ def _transitions(found: tuple[Transition, ...]) -> list[Document]:
             "loss": short(each.loss, 6),
             "error": error,
             "together": list(each.together),
+            "impulses": {name: short(impulse, 6) for name, impulse in of_impact.items()},
         }
-        for each, (time, error) in zip(found, times, strict=True)
+        for each, (time, error), of_impact in zip(found, times, impulses, strict=True)
     ]
 
 

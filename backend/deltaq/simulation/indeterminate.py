@@ -10,13 +10,14 @@ Theory of Linear and Integer Programming, §§7.1, 8.2 (Carathéodory's theorem,
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 from itertools import combinations, groupby
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ..model.modes import Modes
+from ..model.modes import Modes, modes_of_model
 from .mode_state import ModeState, in_mode_of
 from .problem import Floats, Problem, Stretch, numbers_of_stretches
 from .sliding import ALONG, later, rate_of, unclear_rate, unit_row
@@ -37,7 +38,9 @@ class IndeterminateSpan:
 
 @dataclass(frozen=True)
 class IndeterminateForces:
-    """By stretch of a motion, the loads with friction, multipliers and contacts whose forces are not determined."""
+    """By stretch of a motion, the forces that are not determined: of friction, constraints, contacts, and of what is
+    released.
+    """
 
     stretches: tuple[Stretch, ...]
     names: tuple[tuple[str, ...], ...]
@@ -62,16 +65,26 @@ class IndeterminateForces:
         return np.asarray(is_open[numbers_of_stretches(times, self.stretches)])
 
 
-def indeterminate_forces(modes: Modes | None, stretches: tuple[Stretch, ...]) -> IndeterminateForces:
+def indeterminate_forces(problem: Problem, stretches: tuple[Stretch, ...]) -> IndeterminateForces:
     """Which forces of a motion are not determined while parts of it stick or rest.
 
     Multipliers that are not unique in the whole motion, for constraints that depend on each other, are not told here.
     """
+    modes, rivals = modes_of_model(problem.model), _rivals(problem)
     if modes is None or not stretches or not _may_be_dependent(modes, stretches[0].problem):
-        return IndeterminateForces(stretches, ((),) * len(stretches))
+        whole = stretches or (Stretch(0.0, problem),)
+        return IndeterminateForces(whole, (rivals,) * len(whole))
     least = least_sizes(in_mode_of(stretches[0].problem, modes, 0.0))
-    names = (_names(in_mode_of(each.problem, modes, each.start, least)) for each in stretches)
-    return IndeterminateForces(stretches, tuple(names))
+    names = ((*_names(in_mode_of(each.problem, modes, each.start, least)), *rivals) for each in stretches)
+    return IndeterminateForces(stretches, tuple(tuple(dict.fromkeys(each)) for each in names))
+
+
+def _rivals(problem: Problem) -> tuple[str, ...]:
+    """What was released and is held by friction as well."""
+    released = problem.released
+    if released is None:
+        return ()
+    return tuple(name for name, has in zip(released.names, released.held_by.has_rival, strict=True) if has)
 
 
 def _may_be_dependent(modes: Modes, problem: Problem) -> bool:
@@ -87,13 +100,29 @@ def _names(current: ModeState) -> tuple[str, ...]:
     if len(rows) + len(multipliers) < 2:
         return ()
     known = problem.moved.undetermined if problem.moved else ()
-    forces = [*map(unit_row, current.kept[0]), *(unit_row(current.facts.along[row]) for row in rows)]
+    along = [*current.kept[0], *(current.facts.along[row] for row in rows)]
     ways = [0.0] * len(multipliers) + [_way_left(current, row) for row in rows]
+    free = _without_effect(np.array([unit_row(each) for each in along]), np.array(ways))
     own = (*multipliers, *(_name(modes, row) for row in rows))
-    is_open = _are_open(np.array(forces), np.array(ways))
+    is_open = np.abs(free).max(axis=1, initial=0.0) > SHARE
     found = {name for name, each in zip(own, is_open, strict=True) if each and name and name not in known}
     ordered = (*modes.frictions, *multipliers, *(_name(modes, row) for row in range(modes.bounded, modes.rows)))
-    return tuple(name for name in ordered if name in found)
+    return (*(name for name in ordered if name in found), *_of_released(current, rows, np.array(along), free))
+
+
+def _of_released(current: ModeState, rows: list[int], along: Floats, free: Floats) -> Iterator[str]:
+    """What was released and changes with forces that move nothing; see `_without_effect` for `free`."""
+    released = current.problem.released
+    if released is None:
+        return
+    flags = tuple(float(row in rows) for row in range(current.modes.rows))
+    first, count = len(current.q), len(current.kept[0])
+    acting = [first + k for k in (*range(count), *(count + row for row in rows))]
+    shares = released.held_by.shares(current.with_flags(flags).row)[:, acting]
+    changes = shares / np.array([float(np.linalg.norm(row)) or 1.0 for row in along])
+    is_open = np.abs(changes @ free).max(axis=1, initial=0.0) > SHARE * np.abs(changes).max(axis=1, initial=0.0)
+    known = current.problem.moved.undetermined if current.problem.moved else ()
+    yield from (name for name, each in zip(released.names, is_open, strict=True) if each and name not in known)
 
 
 def _name(modes: Modes, row: int) -> str:
@@ -132,10 +161,10 @@ def _way_left(current: ModeState, row: int) -> float:
     return -float(np.sign(force)) if abs(force) >= facts.limits[row] - unclear else 0.0
 
 
-def _are_open(forces: Floats, ways: Floats) -> NDArray[np.bool_]:
-    """Whether each force is part of a combination that adds up to zero and goes the ways that are left.
+def _without_effect(forces: Floats, ways: Floats) -> Floats:
+    """Combinations of forces that add up to zero and go the ways that are left: shape (forces, combinations).
 
-    `forces` has shape (forces, n), `ways` and what is returned (forces,). Some bounds may leave no way but to stay.
+    `forces` has shape (forces, n), `ways` (forces,). Some bounds may leave no way but to stay.
     """
     vectors, sizes, _ = np.linalg.svd(forces)
     without_effect = vectors[:, np.count_nonzero(sizes > ALONG) :]
@@ -144,7 +173,7 @@ def _are_open(forces: Floats, ways: Floats) -> NDArray[np.bool_]:
     if stay:
         _, sizes, directions = np.linalg.svd(bound[stay])
         without_effect = without_effect @ directions[np.count_nonzero(sizes > ALONG) :].T
-    return np.asarray(np.abs(without_effect).max(axis=1, initial=0.0) > SHARE)
+    return np.asarray(without_effect)
 
 
 def _is_opposed(rows: Floats, row: int) -> bool:

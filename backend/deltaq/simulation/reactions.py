@@ -24,7 +24,7 @@ def releasing(problem: Problem, released: Released) -> Problem:
     held = np.vstack([np.zeros(idle.shape[1]), idle])
     states = np.tile(problem.state[: 2 * problem.degrees], (len(held), 1))
     given = problem.inputs(np.zeros(len(held)), states)
-    table = released.held_by.of(problem.model).table(np.hstack([given, np.zeros((len(held), problem.degrees)), held]))
+    table = released.held_by.along(problem.model, np.hstack([given, np.zeros((len(held), problem.degrees)), held]))
     loose = (np.abs(table[1:] - table[0]) > SHARES * np.abs(idle).max(axis=1)[:, None]).any(axis=0)
     names = [name for name, is_loose in zip(released.names, loose, strict=True) if is_loose]
     return replace(asked, moved=replace(moved, undetermined=(*moved.undetermined, *names)))
@@ -43,7 +43,7 @@ def reactions_at(problem: Problem, times: Floats, states: Floats) -> tuple[Float
     states, held = found
     times = times[: len(states)]
     rows = np.hstack([problem.inputs(times, states), accelerations(problem, times, states), held.multipliers])
-    of_released = problem.released.held_by.of(problem.model).table(rows)
+    of_released = problem.released.held_by.along(problem.model, rows)
     return states, Reactions(np.hstack([held.multipliers, of_released]), held.gaps)
 
 

@@ -14,7 +14,6 @@ import numpy as np
 
 from .. import errors
 from ..mechanics.event import Event
-from ..mechanics.jumps import jumps
 from ..mechanics.library import load_scene
 from ..mechanics.requests import inside
 from ..mechanics.scene import Scene
@@ -93,7 +92,6 @@ def _run(document: Mapping[str, object]) -> Document:
         problem = problem_of(request.scene, request.t_end, request.samples)
         require_no_event(request.scene, problem)
     if request.release:
-        require_one_mode(request.scene)
         problem = releasing(problem, Released(request.release, reactions(request.scene, request.release)))
     choice = choose(request.method, request.scene, problem, request.step, request.tolerance)
     return _simulated(request, choice, problem, compile_time)
@@ -120,17 +118,9 @@ def _simulated(request: Request, choice: Choice, problem: Problem, compile_time:
         trajectory, seen = _cut(trajectory, good), _cut_observation(seen, good)
         frictions = {name: each.first(good) for name, each in frictions.items()}
         contacts = {name: each[:good] for name, each in contacts.items()}
-    indeterminate = indeterminate_forces(modes, trajectory.stretches)
+    indeterminate = indeterminate_forces(problem, trajectory.stretches)
     acting = Acting(watts[: len(trajectory.times)], frictions, contacts, indeterminate)
     return answer(request, choice, problem, trajectory, seen, acting, compile_time)
-
-
-def require_one_mode(scene: Scene) -> None:
-    """Raises RequestError for a release where motions jump or stick: q̈ there is not that of one set of equations."""
-    impacts = errors.Problem("release-with-impacts", "/release")
-    refused = tuple(jumps(scene, impacts, errors.Problem("release-with-friction", "/release")))
-    if refused:
-        raise errors.RequestError(*refused)
 
 
 def require_no_event(scene: Scene, problem: Problem) -> None:

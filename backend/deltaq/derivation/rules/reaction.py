@@ -6,6 +6,7 @@ Source: Lanczos, The Variational Principles of Mechanics, ch. III.5.
 from __future__ import annotations
 
 from ..formula import Explicit, Formula, Inserted, Named, Plus, Quantity, Substituted, minus
+from ..held_reactions import rivals
 from ..released import Release
 from ..step import Relation, Step
 from .reaction_equation import RULE as EQUATION
@@ -25,7 +26,10 @@ def apply(release: Release) -> Step:
     if release.is_of_rod:
         force = Named(Quantity("rod-force", name), system.display(-release.value))
         lines.append(Relation((force, Plus((minus(Explicit(release.value)),)), Explicit(force.value))))
-    outcome = f"{release.kind}{'' if release.closed is not None else '-accelerated'}"
+    shared = rivals(release)
+    kind = f"{release.kind}-shared" if shared else release.kind
+    outcome = kind if release.closed is not None else f"{kind}-accelerated"
     about = {"coordinate": name, "outcome": outcome, **displaced(release)}
+    about |= {"loads": ", ".join(shared)} if shared else {}
     equations = tuple(f"equation:{q}" for q in system.free) if release.accelerations else ()
     return Step(RULE, name, tuple(lines), (), about, premises=(f"{EQUATION}:{name}", *equations))
