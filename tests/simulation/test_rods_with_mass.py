@@ -252,6 +252,25 @@ def test_a_rod_bound_at_its_middle_is_not_taken_for_one_bound_at_its_end() -> No
     assert held_in(read_scene({**document, "constraints": halves})) == {"l": "place"}
 
 
+def test_a_rod_on_a_blade_is_not_taken_for_one_that_its_near_end_alone_holds() -> None:
+    """A condition on the rate of its far end holds it there as well, and so Z is told as that of places."""
+    start = [{"name": name, "unit": "m", "value": 0.0, "rate": 0.0} for name in "xy"]
+    at = ["x + {0}*sin(phi)", "y + {0}*cos(phi)"]
+    body = {"kind": "rigid", "name": "rod", "mass": "m", "inertia": "m*l^2/12", "angle": "phi"}
+    blade = "dot(x)*cos(phi) - dot(y)*sin(phi) + l*dot(phi) = 0"
+    scene = rod_scene(
+        coordinates=[*start, {"name": "phi", "unit": "rad", "value": 0.6, "rate": 0.0}],
+        points=[
+            {"name": "pivot", "position": ["x", "y"]},
+            {"name": "tip", "position": [part.format("l") for part in at]},
+        ],
+        bodies=[{**body, "position": [part.format("l/2") for part in at]}],
+        constraints=[{"kind": "equation", "name": "edge", "equation": blade}],
+    )
+    assert held_in(scene) == {"l": "place"}
+    assert held_in(replace(scene, constraints=())) == {"l": "rod"}
+
+
 NOT_A_ROD = [
     pytest.param({"drawing": {"elements": []}}, id="not drawn"),
     pytest.param(
