@@ -29,7 +29,7 @@ class Page:
         }
         book = Textbook(self.reader, ORDER, frozenset())
         self.alphabet = Alphabet(self.reader, ORDER, self.forms.values(), book._kernel)
-        self.prices = Prices(self.alphabet)
+        self.prices = Prices(self.alphabet.shape)
 
     def poly(self, text: str) -> tuple[Poly, int]:
         return self.alphabet.polynomial(self.forms[text])
@@ -203,7 +203,7 @@ def test_further_factors_join_the_powers_that_are_there() -> None:
 
 def multiplied_out(page: Page, plan: Plan) -> dict[str, Fraction]:
     names = {page.alphabet.exponents(mono): text for text, form in page.forms.items() for mono, _, _ in form}
-    return {names[key]: number for key, number in expanded(plan, page.alphabet).items()}
+    return {names[key]: number for key, number in expanded(plan, page.alphabet.shape).items()}
 
 
 def test_a_plan_is_multiplied_out() -> None:
@@ -261,11 +261,11 @@ def test_kinds_of_generators_and_their_order() -> None:
 def test_a_plan_that_may_not_be_sought_is_the_plain_sum() -> None:
     page = Page("m1*x + m2*x")
     poly, denominator = page.poly("m1*x + m2*x")
-    assert len(Planner(page.alphabet).terms(poly, denominator)) == 1
-    assert isinstance(Planner(page.alphabet, budget=0).plan({(1, 0, 1): 1, (0, 1, 0): 1}), Sum)
+    assert len(Planner(page.alphabet.shape).terms(poly, denominator)) == 1
+    assert isinstance(Planner(page.alphabet.shape, budget=0).plan({(1, 0, 1): 1, (0, 1, 0): 1}), Sum)
     squares = {(2, 0, 0): 1, (1, 1, 0): 2, (0, 2, 0): 1}
-    assert isinstance(Planner(page.alphabet, budget=1).plan(squares), Product)
-    assert isinstance(Planner(page.alphabet, budget=0).plan(squares), Sum)
+    assert isinstance(Planner(page.alphabet.shape, budget=1).plan(squares), Product)
+    assert isinstance(Planner(page.alphabet.shape, budget=0).plan(squares), Sum)
 
 
 def written_by_hand(generator: random.Random) -> sympy.Expr:
@@ -295,7 +295,7 @@ def test_what_thirty_formulas_cost_together() -> None:
         if form:
             alphabet = Alphabet(reader, ORDER, [form], reader.meaning.__getitem__)
             poly, denominator = alphabet.polynomial(form)
-            plan = Planner(alphabet).plan(poly, denominator)
-            assert expanded(plan, alphabet) == in_whole_numbers(poly, denominator)
+            plan = Planner(alphabet.shape).plan(poly, denominator)
+            assert expanded(plan, alphabet.shape) == in_whole_numbers(poly, denominator)
             total += plan.price
     assert total == 699.75

@@ -82,13 +82,24 @@ class Calculus(SceneSymbols):
 
     def slope(self, value: sp.Expr, by: sp.Symbol) -> sp.Expr:
         """∂value/∂by"""
+        if by not in self.symbols_in(value):
+            return self.zero
         self._count(value)
         form = self._form(value)
         return diff(value, by) if form is None else form.derivative(by).expression
 
     @cached_method
+    def symbols_in(self, value: sp.Expr) -> frozenset[sp.Symbol]:
+        """The symbols that the value hangs on: by any other its slope is zero. Large scenes have many."""
+        return frozenset(value.free_symbols)
+
+    @cached_method
     def _form(self, value: sp.Expr) -> PlainForm | None:
         return plain_form(value)
+
+    def raw_slope(self, value: sp.Expr, by: sp.Symbol) -> sp.Expr:
+        """∂value/∂by as the rules of calculus leave it."""
+        return diff(value, by) if by in self.symbols_in(value) else self.zero
 
     def display(self, value: V) -> V:
         """The shortest of a few equivalent forms."""
@@ -106,6 +117,8 @@ class Calculus(SceneSymbols):
 
     @cached_method
     def _shown_slope(self, value: sp.Expr, by: sp.Symbol) -> sp.Expr:
+        if by not in self.symbols_in(value):
+            return self.zero
         form = self._form(value)
         with suppress(TooLargeError):
             if form is not None:
@@ -124,6 +137,8 @@ class Calculus(SceneSymbols):
     def euler_expression(self, energy: sp.Expr, coordinate: str) -> sp.Expr:
         """d/dt ∂E/∂q̇ − ∂E/∂q"""
         q, rate = self.q(coordinate), self.rate(coordinate)
+        if self.symbols_in(energy).isdisjoint((q, rate)):
+            return self.zero
         form = self._form(energy)
         with suppress(TooLargeError):
             if form is not None:
@@ -133,15 +148,23 @@ class Calculus(SceneSymbols):
 
     def vary(self, value: sp.Expr) -> sp.Expr:
         """δvalue by the chain rule, the time held fixed."""
-        return sum((self.slope(value, q) * dq for q, dq in self.variations.items()), self.zero)
+        slopes = ((self.slope(value, q), dq) for q, dq in self.variations.items() if q in self.symbols_in(value))
+        return sum((slope * dq for slope, dq in slopes), self.zero)
 
     def collected(self, work: sp.Expr) -> sp.Expr:
         """A virtual work as Σ Qᵢ δqᵢ, each coefficient in its display form."""
-        expanded = work.expand()
-        return sp.Add(*(self.display(expanded.coeff(dq)) * dq for dq in self.variations.values()))
+        varied = frozenset(self.variations.values())
+        terms: dict[sp.Symbol, list[sp.Expr]] = {}
+        for term in sp.Add.make_args(work.expand()):
+            for dq in varied & term.free_symbols:
+                terms.setdefault(dq, []).append(term)
+        ordered = (dq for dq in self.variations.values() if dq in terms)
+        return sp.Add(*(self.display(sp.Add(*terms[dq]).coeff(dq)) * dq for dq in ordered))
 
     def is_zero(self, value: sp.Expr) -> bool:
         """Whether the value vanishes identically; what cannot be decided is taken as not zero."""
+        if value == 0:
+            return True
         self._count(value)
         return canonical.is_zero(value, self.symbols) is True
 

@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Mapping
+
 import sympy as sp
 
 from ..language.derivatives import diff
 from ..language.memory import cached_method
 from ..language.textbook import negated
 from .calculus import column
+from .formula import Term
 from .system import System
 from .terms import terms_by_source
 
@@ -23,13 +26,24 @@ def left_side(system: System, coordinate: str) -> sp.Expr:
 def mass_matrix(system: System) -> sp.ImmutableMatrix:
     """M(q, t), symmetric."""
     accelerations = [system.acceleration(q) for q in system.free]
-    return sp.ImmutableMatrix([[_slope(system, q, a) for a in accelerations] for q in system.free])
+    rows = (slopes(system, terms_by_source(system, q)) for q in system.free)
+    return sp.ImmutableMatrix([[_sum(row.get(a, ())) for a in accelerations] for row in rows])
 
 
-def _slope(system: System, coordinate: str, acceleration: sp.Symbol) -> sp.Expr:
-    """What stands before an acceleration, as it does in the equation."""
-    slopes = ((term, diff(term.written_out, acceleration)) for term in terms_by_source(system, coordinate))
-    return sp.Add(*(slope if term.sign > 0 else negated(slope) for term, slope in slopes if slope != 0))
+def slopes(system: System, terms: Iterable[Term]) -> Mapping[sp.Symbol, tuple[tuple[Term, sp.Expr], ...]]:
+    """What stands before each acceleration that the terms hang on, term by term."""
+    accelerations = {system.acceleration(q) for q in system.free}
+    found: dict[sp.Symbol, list[tuple[Term, sp.Expr]]] = {}
+    for term in terms:
+        for acceleration in accelerations & system.symbols_in(term.written_out):
+            slope = diff(term.written_out, acceleration)
+            if slope != 0:
+                found.setdefault(acceleration, []).append((term, slope))
+    return {acceleration: tuple(each) for acceleration, each in found.items()}
+
+
+def _sum(slopes: Iterable[tuple[Term, sp.Expr]]) -> sp.Expr:
+    return sp.Add(*(slope if term.sign > 0 else negated(slope) for term, slope in slopes))
 
 
 @cached_method
@@ -40,9 +54,9 @@ def forcing(system: System) -> sp.ImmutableMatrix:
 
 def _rest(system: System, coordinate: str) -> sp.Expr:
     at_rest = dict.fromkeys((*map(system.acceleration, system.free), *system.multipliers), system.zero)
-    terms = terms_by_source(system, coordinate)
-    outside = (t for t in terms if not t.written_out.free_symbols & at_rest.keys())
-    inside = [t.sign * t.written_out.xreplace(at_rest) for t in terms if t.written_out.free_symbols & at_rest.keys()]
+    terms = [(t, system.symbols_in(t.written_out).isdisjoint(at_rest)) for t in terms_by_source(system, coordinate)]
+    outside = (t for t, is_outside in terms if is_outside)
+    inside = [t.sign * t.written_out.xreplace(at_rest) for t, is_outside in terms if not is_outside]
     return sp.Add(*(negated(t.written_out) if t.sign > 0 else t.written_out for t in outside), -sp.Add(*inside))
 
 

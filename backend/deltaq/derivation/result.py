@@ -8,7 +8,7 @@ from itertools import combinations
 
 import sympy as sp
 
-from ..language.derivatives import beside_jumps, diff
+from ..language.derivatives import beside_jumps
 from ..language.memory import cached_method
 from ..mechanics.scene import Scene
 from ..vocabulary import CurlOutcome, GeneratorFamily, SearchEnd
@@ -22,7 +22,7 @@ from .formula import Explicit, Term
 from .generator import Generator, Symmetry, solved
 from .impacts import Contact, Sticking, contacts, contacts_of, sticking
 from .linearization import Linearization
-from .matrix_form import forcing, left_side, mass_matrix
+from .matrix_form import forcing, left_side, mass_matrix, slopes
 from .multipliers import multipliers
 from .optional import (
     contact_search_of,
@@ -226,7 +226,7 @@ def _terms(system: System) -> Terms:
         **{key: {q: terms_of(system, of(system, q)) for q in system.free} for key, of in by_coordinate.items()},
         "equations": {q: _equation_terms(system, q) for q in system.free},
         "forcing": {q: _forcing_terms(system, q) for q in system.free},
-        "mass_matrix": {f"{q} {other}": _mass_terms(system, q, other) for q in system.free for other in system.free},
+        "mass_matrix": dict(_mass_terms(system)),
     }
 
 
@@ -246,11 +246,13 @@ def _integral_terms(system: System, symmetry: Symmetry) -> tuple[Term, ...]:
     return terms_of(system, provenance.of_symmetry(system, symmetry)) + outside
 
 
-def _mass_terms(system: System, coordinate: str, other: str) -> tuple[Term, ...]:
-    """What stands before the acceleration of `other` in the equation of the coordinate."""
-    acceleration = system.acceleration(other)
-    slopes = ((term, diff(term.written_out, acceleration)) for term in _equation_terms(system, coordinate))
-    return tuple(replace(term, formula=Explicit(slope)) for term, slope in slopes if slope != 0)
+def _mass_terms(system: System) -> Iterator[tuple[str, tuple[Term, ...]]]:
+    """What stands before the acceleration of the second coordinate in the equation of the first."""
+    for q in system.free:
+        row = slopes(system, _equation_terms(system, q))
+        for other in system.free:
+            entry = row.get(system.acceleration(other), ())
+            yield f"{q} {other}", tuple(replace(term, formula=Explicit(slope)) for term, slope in entry)
 
 
 def _forcing_terms(system: System, coordinate: str) -> tuple[Term, ...]:
@@ -267,14 +269,12 @@ def _equation_terms(system: System, coordinate: str) -> tuple[Term, ...]:
 
 
 def _potential_of(system: System, load: str) -> LoadPotential:
-    forces = {q: system.load_force(load, q) for q in system.free}
-    differences = {
-        (a, b): diff(forces[a], system.q(b)) - diff(forces[b], system.q(a)) for a, b in combinations(system.free, 2)
-    }
     known = system.has_potential(load)
-    differences = {p: system.zero if known or system.is_zero(d) else d for p, d in differences.items()}
-    beside = {p: system.display(beside_jumps(d)) for p, d in differences.items()}
-    curl = {p: d for p, d in beside.items() if d != 0 or differences[p] == 0}  # at a jump alone it is no number
+    differences = {pair: system.zero if known or system.is_zero(curl) else curl for pair, curl in system.curl(load)}
+    beside = {pair: system.display(beside_jumps(curl)) for pair, curl in differences.items()}
+    shown = {pair: curl for pair, curl in beside.items() if curl != 0 or differences[pair] == 0}  # else no number
+    hidden = differences.keys() - shown.keys()  # at a jump alone
+    curl = {pair: shown.get(pair, system.zero) for pair in combinations(system.free, 2) if pair not in hidden}
     potential = system.load_potential(load) if system.is_conservative(load) else None
     return LoadPotential(load, outcome(system, load), system.has_potential(load), potential, curl)
 

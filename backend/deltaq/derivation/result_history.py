@@ -62,6 +62,8 @@ class _Told:
 
     def origins(self, key: str, name: str, terms: tuple[Term, ...]) -> Origins:
         """The origins of the terms of one sum."""
+        if not terms:
+            return ()
         values = (f.Explicit(term.sign * term.written_out) for term in terms)
         written = (Summand("", v, v, sources=term.sources) for v, term in zip(values, terms, strict=True))
         if key == "mass_matrix":

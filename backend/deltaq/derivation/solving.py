@@ -22,7 +22,7 @@ from ..language.derivatives import diff
 from .compiled import compiled_together
 from .enclosure import Box, Budget, Enclosed, enclosed
 from .factoring import factor_list
-from .newton import root, step_of
+from .newton import ITERATIONS, Row, root, step_of
 from .program import number
 from .univariate import real_zeros
 
@@ -215,6 +215,8 @@ class Solver:
         found: list[Solution] = []
         lost: list[Sequence[float]] = []
         for start in (*near, *starts):
+            if len(unknowns) > MOST_UNKNOWNS and not self.budget.pays(newton.cost):
+                break
             there = newton.root(start)
             if there is not None:
                 free = newton.free(there)
@@ -269,14 +271,21 @@ class Newton:
         slots = {q: slot for slot, q in enumerate(unknowns)}
         self.unknowns, self.domain, self.size = unknowns, domain, len(unknowns)
         self.field = compiled_together(equations, slots)
-        self.flat = compiled_together([diff(e, q) for e in equations for q in unknowns], slots)
+        held = [(row, q) for row, e in enumerate(equations) for q in unknowns if q in e.free_symbols]
+        slopes = [(row, slots[q], diff(equations[row], q)) for row, q in held]
+        self.places = [(row, column) for row, column, slope in slopes if slope != 0]
+        self.entries = compiled_together([slope for _, _, slope in slopes if slope != 0], slots)
+        self.count = len(equations)
+        self.cost = ITERATIONS * self.size**2  # of a start, where most of J is zero
         values = [self.field(start) for start in self.starts()]
         self.scale = max((math.hypot(*v) for v in values if all(map(math.isfinite, v))), default=1.0)
 
-    def slopes(self, x: Sequence[float]) -> list[list[float]]:
-        """J by rows."""
-        entries = self.flat(x)
-        return [entries[i : i + self.size] for i in range(0, len(entries), self.size)]
+    def slopes(self, x: Sequence[float]) -> list[Row]:
+        """J by rows, what is not zero."""
+        rows: list[Row] = [{} for _ in range(self.count)]
+        for (row, column), entry in zip(self.places, self.entries(x), strict=True):
+            rows[row][column] = entry
+        return rows
 
     def starts(self) -> Iterator[list[float]]:
         """Points of the box, the first ones near where the scene starts; the same for every call."""
@@ -314,7 +323,7 @@ class Newton:
     def free(self, values: Values) -> tuple[sp.Symbol, ...]:
         """The unknowns that may have other values near a root: steps along the kernel of J lead to roots again."""
         point = [values[q] for q in self.unknowns]
-        pivots = _pivots(self.slopes(point))
+        pivots = _pivots([[row.get(i, 0.0) for i in range(self.size)] for row in self.slopes(point)])
         chosen: list[int] = []
         for i in (k for k in range(self.size) if k not in pivots):
             if all(self._moves(point, i, chosen, part) for part in (1e-3, -1e-3)):
@@ -327,14 +336,15 @@ class Newton:
         low, high = (-math.pi, math.pi) if q in self.domain.angles else self.domain.ranges[q]
         wanted = point[index] + part * (high - low)
         others = [i for i in range(self.size) if i != index and i not in held]
+        places = {i: place for place, i in enumerate(others)}
         x = [*point]
         x[index] = wanted
         for _ in range(12):
             value = self.field(x)
-            rows = [[row[i] for i in others] for row in self.slopes(x)]
-            if not all(map(math.isfinite, (*value, *(s for row in rows for s in row)))):
+            rows = [{places[i]: slope for i, slope in row.items() if i in places} for row in self.slopes(x)]
+            if not all(map(math.isfinite, (*value, *(s for row in rows for s in row.values())))):
                 return False
-            step = step_of(rows, value, 1e-12) if others else []
+            step = step_of(rows, value, 1e-12, len(others)) if others else []
             if step is None:
                 return False
             for i, d in zip(others, step, strict=True):

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import combinations
 
 import sympy as sp
 
-from ..language.derivatives import diff
 from ..language.memory import cached_method
 from ..language.operations import operations
 from ..language.tree import Node
@@ -86,14 +86,18 @@ class System(Reactions):
     @cached_method
     def has_potential(self, load: str) -> bool:
         """Whether the load's forces have a potential: no rates in them, and a symmetric Jacobian."""
-        forces = {self.q(q): self.load_force(load, q) for q in self.free}
         rates = {self.rate(q) for q in self.free}
-        if any(force.free_symbols & rates for force in forces.values()):
+        if not all(self.symbols_in(self.load_force(load, q)).isdisjoint(rates) for q in self.free):
             return False
-        if self._is_given(load):
-            return True
-        pairs = combinations(forces.items(), 2)
-        return all(self.is_zero(diff(f, p) - diff(g, q)) for (q, f), (p, g) in pairs)
+        return self._is_given(load) or all(self.is_zero(curl) for _, curl in self.curl(load))
+
+    def curl(self, load: str) -> Iterator[tuple[tuple[str, str], sp.Expr]]:
+        """∂Qᵢ/∂qₖ − ∂Qₖ/∂qᵢ of a load, for pairs one of whose forces hangs on the other; else it is zero."""
+        forces = {q: self.load_force(load, q) for q in self.free}
+        held = {q: self.symbols_in(force) for q, force in forces.items()}
+        for a, b in combinations(self.free, 2):
+            if self.q(b) in held[a] or self.q(a) in held[b]:
+                yield (a, b), self.raw_slope(forces[a], self.q(b)) - self.raw_slope(forces[b], self.q(a))
 
     def _is_given(self, load: str) -> bool:
         """Whether the scene states the load's potential: mixed derivatives of one function need no comparison."""

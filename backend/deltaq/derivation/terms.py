@@ -38,7 +38,7 @@ def terms_of(system: System, shares: Iterable[Share], *, gathered: bool = False)
     What different sources have alike is one term with several sources; what cancels is gone. `gathered`: with brackets,
     and what comes from bodies as one sum, so that their masses are collected; else every product by itself.
     """
-    given = tuple(shares)
+    given = tuple(share for share in shares if share[1] != 0)
     terms = _as_printed(system, given, gathered=gathered) or _split(system, given)
     return tuple(sorted(terms, key=lambda term: _rank(system, term.written_out)))
 

@@ -26,6 +26,8 @@ def diff(expr: Any, by: Any) -> Any:
     """∂expr/∂by for a symbol; of a matrix entry by entry."""
     if isinstance(expr, sympy.MatrixBase):
         return expr.applyfunc(lambda entry: diff(entry, by))
+    if not expr.args:
+        return ONE if expr == by else ZERO
     slope = _diff(expr, by)
     return without_idle_impulses(slope) if expr.has(*JUMPS) else slope
 
@@ -85,7 +87,10 @@ def _diff(expr: Any, by: Any) -> Any:  # noqa: PLR0911 - one case for each kind
     if isinstance(expr, sympy.sign):  # of what is real: SymPy does not know a fraction to be
         change = _diff(expr.args[0], by)
         return ZERO if change is ZERO else 2 * sympy.DiracDelta(expr.args[0]) * change
-    return expr.diff(by)
+    if isinstance(expr, sympy.Abs) and expr.args[0].is_extended_real:
+        change = _diff(expr.args[0], by)
+        return ZERO if change is ZERO else change * sympy.sign(expr.args[0])
+    return expr.diff(by) if by in expr.free_symbols else ZERO
 
 
 def _of_product(factors: tuple[Any, ...], by: Any) -> Any:

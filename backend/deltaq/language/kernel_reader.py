@@ -17,7 +17,7 @@ from flint import Ordering, fmpq, fmpq_mpoly_ctx
 from . import fourier
 from .fourier import ONE, STILL, Form, Monomial
 from .normal_form import Reader
-from .order import arguments_of
+from .order import arguments_of, text_of
 
 MAX_ROOT = 10**12
 # Functions that stay as the author wrote them: hyperbolic ones unless they cancel, tangents where no sine stands by.
@@ -83,7 +83,7 @@ class KernelReader(Reader):
         inner, number, front = self._oriented(form)
         if not inner:
             return fourier.scale(front, abs(number))
-        key = f"~|{sympy.sstr(self.expression(inner))}|"
+        key = f"~|{text_of(self.expression(inner))}|"
         self.meaning[key] = sympy.Abs(self.expression(inner))
         self.sizes[key] = inner
         return self.multiply(fourier.scale(front, abs(number)), fourier.monomial(key))
@@ -95,7 +95,7 @@ class KernelReader(Reader):
         sign = fmpq(1 if number > 0 else -1)
         if not inner:
             return fourier.constant(sign)
-        text = sympy.sstr(self.expression(inner))
+        text = text_of(self.expression(inner))
         key = f"~sgn {text}"
         self.meaning[key] = sympy.sign(self.expression(inner))
         self.signs[key] = (f"~|{text}|", inner)
@@ -111,7 +111,7 @@ class KernelReader(Reader):
         if not inner:
             return fourier.constant(fmpq(1 if number > 0 else 0))
         value = sympy.Heaviside(self.expression(inner))
-        key = f"~step {sympy.sstr(value.args[0])}"
+        key = f"~step {text_of(value.args[0])}"
         self.meaning[key] = value
         step = fourier.monomial(key)
         return step if number > 0 else fourier.add((fourier.constant(fmpq(1)), fourier.scale(step, fmpq(-1))))

@@ -17,6 +17,7 @@ from flint import fmpq
 from . import fourier
 from .fourier import STILL, Form, Phase
 from .generators import Generators
+from .order import text_of
 
 _LARGEST_FACTORED = 10**12
 
@@ -94,7 +95,7 @@ class Reader(Generators):
     def _named_base(self, form: Form) -> str:
         """The generator that stands for a base; x⁴/√(x²)², in which it may stand itself, is the base x²."""
         written = self.expression(form)
-        key = f"~~{sympy.sstr(written)}"
+        key = f"~~{text_of(written)}"
         stands_in_itself = any(name == key for mono, _, _ in form for name, _ in mono)
         self.bases[key] = self.form(written) if stands_in_itself else form
         return key
@@ -198,7 +199,7 @@ class Reader(Generators):
         if not phase:
             return mono
         value = self.wave(phase, sine=sine)
-        key = f"~{sympy.sstr(value)}"
+        key = f"~{text_of(value)}"
         self.meaning[key] = value
         return fourier.times(mono, ((key, 1),))
 
@@ -217,6 +218,6 @@ class Reader(Generators):
             return fourier.monomial("pi")
         self.is_exact = False
         known = expr if expr.is_number else expr.func(*(self.expression(self.form(a)) for a in expr.args))
-        key = f"~{sympy.sstr(known)}"
+        key = f"~{text_of(known)}"
         self.meaning[key] = known
         return fourier.monomial(key)

@@ -50,8 +50,9 @@ def arguments_of(call: sympy.Expr) -> tuple[sympy.Expr, ...]:
     return call.args[:1] if isinstance(call, sympy.Heaviside) else tuple(call.args)
 
 
-def _text(expr: sympy.Expr) -> str:
-    """The expression as text, to sort by; making it takes long, and the same parts come again and again."""
+@lru_cache(maxsize=1 << 14)
+def text_of(expr: sympy.Expr) -> str:
+    """The expression as text, to sort or name by; making it takes long, and the same parts come again and again."""
     return str(expr)
 
 
@@ -97,20 +98,20 @@ class Order:
         if base.is_Symbol:
             return (*self._symbol(base), -float(exponent) if exponent.is_Rational else 0)
         if base.is_number:
-            return (1, (), (), _text(factor))
+            return (1, (), (), text_of(factor))
         moving = [split_symbol(s.name)[0] for s in base.free_symbols if self.is_moving(s)]
         if not moving:
-            return self._bracket(base, factor) if base.is_Add else (6, (), (), _text(factor))
+            return self._bracket(base, factor) if base.is_Add else (6, (), (), text_of(factor))
         if base.is_Add and not max(moving):
-            return (5, _AFTER_COORDINATES, (1,), _text(factor))
+            return (5, _AFTER_COORDINATES, (1,), text_of(factor))
         if base.is_Add:
-            return (7 + max(moving), (1,), (), _text(factor))
-        return (6, (self._angle(base),), (_FUNCTION_RANK.get(type(base).__name__, 2),), _text(base))
+            return (7 + max(moving), (1,), (), text_of(factor))
+        return (6, (self._angle(base),), (_FUNCTION_RANK.get(type(base).__name__, 2),), text_of(base))
 
     def _bracket(self, base: sympy.Expr, factor: sympy.Expr) -> Key:
         """A bracket of parameters stands where the first of them would: (m₁ + m₂) l², m (R − r)²."""
         rank = min(_head_rank(symbol.name) for symbol in base.free_symbols)
-        return (3, (rank,), _AFTER_SYMBOLS, _text(factor))
+        return (3, (rank,), _AFTER_SYMBOLS, text_of(factor))
 
     def _angle(self, function: sympy.Expr) -> Key:
         return tuple(sorted(self.place(split_symbol(s.name)[1]) for s in function.free_symbols if self.is_moving(s)))
@@ -137,7 +138,7 @@ class Order:
             elif base.is_Symbol:
                 parameters.append(self.factor(factor))
             elif not base.is_number:
-                functions.append(_text(base))
+                functions.append(text_of(base))
         varies = any(kind in powers for kind in (5, 6, 7))  # q + h δq
         by_kind = tuple(_descending(powers.get(kind, {})) for kind in (5, 6, 7, 4, 8, 3))
         acceleration = (-sum(powers.get(2, {}).values()), len(functions) if 2 in powers else 0)

@@ -12,7 +12,7 @@ from dataclasses import dataclass, field
 from fractions import Fraction
 from typing import TypeAlias
 
-from .polynomial import Alphabet, Exponents, Kind, Poly
+from .polynomial import Exponents, Kind, Poly, Shape
 
 Powers = tuple[tuple[int, int], ...]
 
@@ -48,13 +48,13 @@ Plan: TypeAlias = Product | Sum
 class Prices:
     """Makes plans and says what they cost."""
 
-    alphabet: Alphabet
+    shape: Shape
 
     def product(
         self, number: Fraction, powers: Powers, brackets: tuple[tuple[Sum, int], ...] = (), *, free: bool = False
     ) -> Product:
         """A product; `free` is the common factor of an energy, whose bracket may hold anything."""
-        generators = self.alphabet.generators
+        generators = self.shape.generators
         below = sum(generators[i].unit < 0 for i, _ in powers)
         factors = len(powers) + len(brackets) + (abs(number) != 1)
         alone = bool(below) and below == len(powers) and not brackets and abs(number.numerator) == 1
@@ -104,18 +104,18 @@ class Prices:
         return price
 
     def _is_fast(self, index: int) -> bool:
-        return self.alphabet.generators[index].kind in (Kind.RATE, Kind.OUTER)
+        return self.shape.generators[index].kind in (Kind.RATE, Kind.OUTER)
 
     def _is_variable(self, index: int) -> bool:
-        return self.alphabet.generators[index].kind in (Kind.COORDINATE, Kind.RATE)
+        return self.shape.generators[index].kind in (Kind.COORDINATE, Kind.RATE)
 
     def _kinds(self, term: Product) -> set[Kind]:
-        own = {self.alphabet.generators[i].kind for i, _ in term.powers}
+        own = {self.shape.generators[i].kind for i, _ in term.powers}
         return own.union(*(self._kinds(part) for inner, _ in term.brackets for part in inner.terms))
 
     def _degree(self, term: Product) -> int:
         kinds = (Kind.RATE, Kind.OUTER)
-        return sum(e for i, e in term.powers if self.alphabet.generators[i].kind in kinds)
+        return sum(e for i, e in term.powers if self.shape.generators[i].kind in kinds)
 
     def _repeated(self, terms: tuple[Product, ...]) -> float:
         """Against the same product of rates in several terms, and more so against the same acceleration."""
@@ -133,23 +133,23 @@ class Prices:
         yield from (self._of_kind(part, Kind.RATE) for part in term.brackets[0][0].terms if not part.brackets)
 
     def _of_kind(self, term: Product, kind: Kind) -> Powers:
-        return tuple((i, e) for i, e in term.powers if self.alphabet.generators[i].kind == kind)
+        return tuple((i, e) for i, e in term.powers if self.shape.generators[i].kind == kind)
 
 
-def expanded(plan: Plan, alphabet: Alphabet) -> dict[Exponents, Fraction]:
+def expanded(plan: Plan, shape: Shape) -> dict[Exponents, Fraction]:
     """The plan multiplied out."""
     if isinstance(plan, Sum):
         total: dict[Exponents, Fraction] = {}
         for term in plan.terms:
-            for key, number in expanded(term, alphabet).items():
+            for key, number in expanded(term, shape).items():
                 total[key] = total.get(key, Fraction(0)) + number
         return {key: number for key, number in total.items() if number}
-    start = [0] * len(alphabet.generators)
+    start = [0] * len(shape.generators)
     for i, e in plan.powers:
         start[i] = e
     product = {tuple(start): plan.number}
     for inner, e in plan.brackets:
-        factor = expanded(inner, alphabet)
+        factor = expanded(inner, shape)
         for _ in range(e):
             product = _times(product, factor)
     return product

@@ -10,10 +10,12 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 from fractions import Fraction
+from functools import lru_cache
 from operator import mul
+from typing import TypeVar
 
-from .plan import Plan, Powers, Prices, Product, Sum
-from .polynomial import Alphabet, Exponents, Kind, Poly, as_poly
+from .plan import Plan, Powers, Prices, Product, Sum, expanded, in_whole_numbers
+from .polynomial import Exponents, Kind, Poly, Shape, as_poly
 
 MAX_TERMS = 160
 TRIED = 2  # splits that are followed, of those that look shortest
@@ -22,19 +24,24 @@ FEW = 6  # terms of which every split may look longer
 HIGHEST = 200  # degree up to which factors are looked for: of xⁿ − 1 with n a million it takes gigabytes
 MAX_SINGLE = 8  # terms up to which each single generator is tried
 
+KEPT = 1 << 12  # plans: sums that differ in their symbols alone share one, and large scenes have many of them
+UNLIKE = "a plan is not the polynomial it was made for"
+
+P = TypeVar("P", bound=Plan)
+Terms = tuple[tuple[Exponents, int], ...]  # of a polynomial, in a fixed order
 Key = frozenset[tuple[Exponents, int]]
 Parts = dict[Key, tuple[Poly, Poly]]  # for each cofactor, what it is multiplied by, and the cofactor
 
 
 class Planner:
-    """Plans for the polynomials of one alphabet; what was planned is kept."""
+    """Plans for the polynomials in generators of one shape; what was planned is kept."""
 
-    def __init__(self, alphabet: Alphabet, budget: int = 150) -> None:
-        self.prices = Prices(alphabet)
-        self._alphabet = alphabet
+    def __init__(self, shape: Shape, budget: int = 150) -> None:
+        self.prices = Prices(shape)
+        self._shape = shape
         self._known: dict[Key, Plan] = {}
         self._left = budget
-        self._moving = frozenset(i for i, g in enumerate(alphabet.generators) if g.moves)
+        self._moving = frozenset(i for i, g in enumerate(shape.generators) if g.moves)
 
     def plan(self, poly: Poly, denominator: int = 1, *, free: bool = False) -> Plan:
         """The plan of a polynomial that is not zero; `free`: a mass may go in front of anything."""
@@ -43,7 +50,7 @@ class Planner:
             return self.prices.monomial(exponents, Fraction(number, denominator))
         number, common, primitive = split_off(poly)
         factor, powers = Fraction(number, denominator), _powers(common)
-        free = free and any(self._alphabet.generators[i].kind == Kind.MASS for i, _ in powers)
+        free = free and any(self._shape.generators[i].kind == Kind.MASS for i, _ in powers)
         return self._scaled(self._primitive(primitive), factor, powers, free=free)
 
     def terms(self, poly: Poly, denominator: int = 1, *, apart: bool = False) -> tuple[Product, ...]:
@@ -51,7 +58,7 @@ class Planner:
         if not apart:
             found = self.plan(poly, denominator)
             return found.terms if isinstance(found, Sum) else (found,)
-        moving = self._alphabet.of_kinds(Kind.RATE, Kind.OUTER)
+        moving = self._shape.of_kinds(Kind.RATE, Kind.OUTER)
         return tuple(
             term
             for outer, inner in _grouped(poly, moving)
@@ -106,7 +113,7 @@ class Planner:
         """The factors of a primitive polynomial, each a sum; None if it has none, or its degree is above HIGHEST."""
         if max(map(max, poly)) > HIGHEST:
             return None
-        number, factors = self._alphabet.context.from_dict(poly).factor()
+        number, factors = self._shape.context.from_dict(poly).factor()
         if len(factors) == 1 and factors[0][1] == 1:
             return None
         total, brackets = Fraction(int(number)), []
@@ -131,17 +138,17 @@ class Planner:
                 yield parts
 
     def _groupings(self, poly: Poly) -> Iterator[list[tuple[Exponents, Poly]]]:
-        alphabet = self._alphabet
+        shape = self._shape
         used = frozenset(i for i, highest in enumerate(map(max, zip(*poly, strict=True))) if highest)
-        rates = alphabet.of_kinds(Kind.RATE, Kind.OUTER)
-        fixed = alphabet.of_kinds(Kind.MASS, Kind.PARAMETER)
+        rates = shape.of_kinds(Kind.RATE, Kind.OUTER)
+        fixed = shape.of_kinds(Kind.MASS, Kind.PARAMETER)
         kinds = (
             rates,
             fixed,
             rates | fixed,
-            alphabet.of_kinds(Kind.MASS),
-            alphabet.of_kinds(Kind.KERNEL),
-            alphabet.of_kinds(Kind.COORDINATE, Kind.WAVE, Kind.KERNEL),
+            shape.of_kinds(Kind.MASS),
+            shape.of_kinds(Kind.KERNEL),
+            shape.of_kinds(Kind.COORDINATE, Kind.WAVE, Kind.KERNEL),
         )
         single = (frozenset((i,)) for i in sorted(used)) if len(poly) <= MAX_SINGLE else ()
         for chosen in dict.fromkeys(part & used for part in (*kinds, *single)):
@@ -160,7 +167,7 @@ class Planner:
                 merged |= terms
             parts = [part for part in parts if part not in touching]
             parts.append((moving, merged))
-        one = (0,) * len(self._alphabet.generators)
+        one = (0,) * len(self._shape.generators)
         if len(parts) > 1:
             yield [(one, terms) for _, terms in parts]
 
@@ -173,7 +180,7 @@ class Planner:
         return total
 
     def _plain(self, poly: Poly) -> float:
-        generators = self._alphabet.generators
+        generators = self._shape.generators
         return sum(
             sum(1 + generators[i].operations(e) for i, e in enumerate(exponents) if e) for exponents in poly
         ) + len(poly)
@@ -181,7 +188,7 @@ class Planner:
     def _gathered(self, parts: Parts) -> Plan:
         terms: list[Product] = []
         for multiplier, inner in parts.values():
-            if inner.keys() == {(0,) * len(self._alphabet.generators)}:
+            if inner.keys() == {(0,) * len(self._shape.generators)}:
                 terms += [self.prices.monomial(e, Fraction(n)) for e, n in ordered(multiplier)]
                 continue
             terms += self._joined(self.plan(multiplier), self._primitive(inner))
@@ -202,6 +209,26 @@ class Planner:
             if not outer.brackets and (bare or self.prices.sum(spread).price < whole.price):
                 return spread
         return [whole]
+
+
+@lru_cache(maxsize=KEPT)
+def planned(shape: Shape, terms: Terms, denominator: int, *, free: bool = False) -> Plan:
+    """The cheapest plan of a polynomial; of one in other symbols of the same kinds it is the same."""
+    return _sound(Planner(shape).plan(dict(terms), denominator, free=free), shape, terms, denominator)
+
+
+@lru_cache(maxsize=KEPT)
+def planned_terms(shape: Shape, terms: Terms, denominator: int, *, apart: bool) -> tuple[Product, ...]:
+    """The same as terms of a sum; `apart`: one for each acceleration and product of rates, as inertia is."""
+    found = Planner(shape).terms(dict(terms), denominator, apart=apart)
+    return _sound(Sum(found), shape, terms, denominator).terms
+
+
+def _sound(plan: P, shape: Shape, terms: Terms, denominator: int) -> P:
+    """What is shown is what was to be shown."""
+    if expanded(plan, shape) != in_whole_numbers(dict(terms), denominator):
+        raise ArithmeticError(UNLIKE)
+    return plan
 
 
 def _by_cofactor(groups: list[tuple[Exponents, Poly]]) -> Parts:

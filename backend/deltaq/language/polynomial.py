@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterable
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from enum import IntEnum
 from functools import cached_property
 from typing import Any
@@ -18,7 +18,7 @@ import sympy
 from flint import fmpq
 
 from .fourier import Form, Monomial
-from .memory import cached_method
+from .memory import cached_method, hashed_once
 from .normal_form import Reader
 from .operations import operations
 from .order import Order, split_symbol
@@ -63,6 +63,25 @@ class Generator:
         return self.weight + int(shown != 1)
 
 
+@hashed_once
+@dataclass(frozen=True)
+class Shape:
+    """Generators without what they are called and stand for: all that a plan hangs on, so that like sums share one."""
+
+    generators: tuple[Generator, ...]
+
+    @cached_property
+    def context(self) -> Any:
+        """Polynomials in as many variables, for the algebra to factor."""
+        names = [f"x{i}" for i in range(len(self.generators))]
+        return flint.fmpz_mpoly_ctx.get(names, flint.Ordering.lex)
+
+    @cached_method
+    def of_kinds(self, *kinds: Kind) -> frozenset[int]:
+        """The generators of these kinds."""
+        return frozenset(i for i, g in enumerate(self.generators) if g.kind in kinds)
+
+
 class Alphabet:
     """The generators of some forms of one reader; `shown` says how a kernel is written."""
 
@@ -74,6 +93,7 @@ class Alphabet:
         found = {(name, unit) for (name, _), unit in self._units.items()}
         ranked = sorted((self._generator(name, unit) for name, unit in found), key=self._rank)
         self.generators = tuple(ranked)
+        self.shape = Shape(tuple(replace(each, name="", value=None) for each in ranked))
         self._index = {(g.name, g.unit): i for i, g in enumerate(ranked)}
 
     def _generator(self, name: str, unit: Any) -> Generator:
@@ -96,12 +116,6 @@ class Alphabet:
 
     def _rank(self, generator: Generator) -> tuple[Any, ...]:
         return (-generator.kind, self._order.factor(generator.value), -generator.unit)
-
-    @cached_property
-    def context(self) -> Any:
-        """Polynomials in as many variables, for the algebra to factor."""
-        names = [f"x{i}" for i in range(len(self.generators))]
-        return flint.fmpz_mpoly_ctx.get(names, flint.Ordering.lex)
 
     def exponents(self, mono: Monomial) -> Exponents:
         """The exponents of a monomial. KeyError for a generator that is none of these."""
@@ -134,11 +148,11 @@ class Alphabet:
         levels: dict[int, Poly] = {}
         for exponents, c in poly.items():
             levels.setdefault(exponents[index], {})[_with(exponents, index, 0)] = c
-        divisor = self.context.from_dict(base)
+        divisor = self.shape.context.from_dict(base)
         for level in sorted(levels, reverse=True):
             coefficient = levels.get(level, {})  # none where it went up with one from below
             while level >= step and len(coefficient) >= len(base):
-                quotient, rest = divmod(self.context.from_dict(coefficient), divisor)
+                quotient, rest = divmod(self.shape.context.from_dict(coefficient), divisor)
                 if len(rest):
                     break
                 del levels[level]
@@ -159,11 +173,6 @@ class Alphabet:
         except KeyError:
             return None
         return {key: int(c.p) for key, c in keys.items()} if all(c.q == 1 for c in keys.values()) else None
-
-    @cached_method
-    def of_kinds(self, *kinds: Kind) -> frozenset[int]:
-        """The generators of these kinds."""
-        return frozenset(i for i, g in enumerate(self.generators) if g.kind in kinds)
 
 
 def _units(forms: Iterable[Form]) -> dict[tuple[str, bool], Any]:

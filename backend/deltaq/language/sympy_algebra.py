@@ -19,6 +19,7 @@ from .form_calculus import plain_form
 from .fourier import TooLargeError
 from .functions import CLASSES, FUNCTIONS
 from .measure import MAX_EXPONENT
+from .memory import cached_method
 from .symbols import Symbols
 from .tree import Node, fold
 
@@ -53,6 +54,8 @@ def time_derivative(expr: Value, symbols: Symbols) -> Value:
     if isinstance(expr, sympy.MatrixBase):
         return expr.applyfunc(lambda entry: time_derivative(entry, symbols))
     rates = rates_of(symbols)
+    if expr.free_symbols.isdisjoint(rates):
+        return sympy.S.Zero
     form = plain_form(expr)
     with suppress(TooLargeError):
         if form is not None and len(form.form) <= size(expr):  # else it would be multiplied out for nothing
@@ -70,7 +73,8 @@ def time_derivative(expr: Value, symbols: Symbols) -> Value:
     return total
 
 
-def rates_of(symbols: Symbols) -> dict[Value, Value]:
+@cached_method
+def rates_of(symbols: Symbols) -> Mapping[Value, Value]:
     """How fast everything changes that does: t, and each q, q̇, q̈, δq, δq̇."""
     rates = {symbols.time: sympy.Integer(1)}
     for name in symbols.names.coordinates:

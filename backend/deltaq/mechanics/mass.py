@@ -34,8 +34,9 @@ def motions_matrix(scene: Scene, point: Point) -> Matrix | None:
     for body in scene.bodies:
         for part in body.kinetics:
             for columns in (columns for inertia, columns in _shares(part, scene, point) if inertia > 0.0):
-                for i in size:
-                    for j in size:
+                moved = [i for i in size if any(columns[i])]
+                for i in moved:
+                    for j in moved:
                         total[i][j] += sum(a * b for a, b in zip(columns[i], columns[j], strict=True))
     return total if all(math.isfinite(entry) for row in total for entry in row) else None
 

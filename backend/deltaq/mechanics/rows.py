@@ -53,7 +53,10 @@ def independent(rows: Sequence[Row], nothing: float) -> tuple[int, ...]:
 
 def _beside(row: Row, along: Row) -> Row:
     """What is left of a row beside another one of length 1; taken twice, for what rounding leaves."""
-    once = minus(row, along, dot(row, along))
+    shared = dot(row, along)
+    if shared == 0.0:
+        return row
+    once = minus(row, along, shared)
     return minus(once, along, dot(once, along))
 
 

@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 import sympy as sp
 
 from ..language.latex_printer import Typography, latex
+from ..language.memory import cached_method
 from ..language.order import Order
 from ..language.plain_printer import plain
 from ..language.spelling import latex_of
@@ -27,6 +28,11 @@ class ExpressionWriter:
 
     def written(self, value: sp.Expr) -> Document:
         """An expression."""
+        return dict(self._written(value))
+
+    @cached_method
+    def _written(self, value: sp.Expr) -> Document:
+        """The same, made once: most entries of large matrices are zero."""
         return {
             "plain": plain(value, self.order),
             "latex": latex(value, self.typography),

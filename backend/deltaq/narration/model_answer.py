@@ -191,13 +191,14 @@ def own_symbols(result: Result, write: ExpressionWriter) -> list[Document]:
 
 def load(found: LoadPotential, write: ExpressionWriter) -> Document:
     """Whether a load has a potential, and the curl test: ∂Qᵢ/∂qₖ − ∂Qₖ/∂qᵢ for every pair of coordinates."""
-    energy = found.potential
+    energy, zero = found.potential, write.written(sp.S.Zero)
+    curl = ((pair, zero if value == 0 else write.written(value)) for pair, value in found.curl.items())
     return {
         "load": found.load,
         "outcome": found.outcome,
         "has_potential": found.has_potential,
         "potential": None if energy is None else write.written(energy),
-        "curl": [{"coordinates": list(pair), **write.written(value)} for pair, value in found.curl.items()],
+        "curl": [{"coordinates": list(pair), **value} for pair, value in curl],
     }
 
 

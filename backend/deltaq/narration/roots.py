@@ -50,7 +50,7 @@ def named_roots(
 ) -> Roots:
     """Letters for the roots that recur in a step; those that are known from chapters before keep theirs."""
     walked = (one for chapter in chapters for step in chapter.steps for one in step.walk())
-    steps = {step.id: found for step in walked if (found := _times_written(step, notation))}
+    steps = _counted({step.id: step for step in walked}, notation)
     called = {_content(base): letter for base, letter in known.items()}
     recurring = dict.fromkeys(_content(base) for found in steps.values() for base in found if _recurs(found, base))
     new = [content for content in recurring if content not in called]
@@ -79,14 +79,31 @@ def _content(base: sp.Expr) -> sp.Expr:
     return base.expand()
 
 
-def _times_written(step: Step, notation: Notation) -> dict[sp.Expr, int]:
-    """How often a step writes each root of a sum, in the order in which they are written."""
-    marker, found = latex_of(MARKER), {}
-    for base in _bases(step):
-        text = aligned(step.relations, with_roots(notation, {base: MARKER}).formula)
-        if marker in text:
-            found[base] = text.index(marker), text.count(marker)
-    return {base: times for base, (_, times) in sorted(found.items(), key=lambda pair: pair[1])}
+def _counted(steps: Mapping[str, Step], notation: Notation) -> dict[str, dict[sp.Expr, int]]:
+    """How often each step writes each root of a sum, in the order in which they are written.
+
+    All are marked at once; but a root within another, which would hide it, is marked by itself.
+    """
+    bases = {name: tuple(_bases(step)) for name, step in steps.items()}
+    every = dict.fromkeys(base for found in bases.values() for base in found)
+    inside = {part for base in every for part in base.atoms(sp.Add) if part != base}
+    together = {base: f"{MARKER}_{number}" for number, base in enumerate(every) if base not in inside}
+    marked = with_roots(notation, together)
+    found = {}
+    for name, step in steps.items():
+        hidden = [base for base in bases[name] if base in inside]
+        places = _places(step, marked, {base: together[base] for base in bases[name] if base in together})
+        for base in hidden:
+            places |= _places(step, with_roots(notation, {base: MARKER}), {base: MARKER})
+        found[name] = {base: times for base, (_, times) in sorted(places.items(), key=lambda pair: pair[1])}
+    return {name: times for name, times in found.items() if times}
+
+
+def _places(step: Step, notation: Notation, marks: Mapping[sp.Expr, str]) -> dict[sp.Expr, tuple[int, int]]:
+    """Where each mark stands first in the lines of the step, and how often it does; none that is not there."""
+    text = aligned(step.relations, notation.formula) if marks else ""
+    written = ((base, latex_of(mark)) for base, mark in marks.items())
+    return {base: (text.index(mark), text.count(mark)) for base, mark in written if mark in text}
 
 
 def _bases(step: Step) -> Iterable[sp.Expr]:

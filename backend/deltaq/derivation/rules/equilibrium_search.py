@@ -78,5 +78,5 @@ def _ranges(system: System, ranges: Mapping[str, tuple[float, float]]) -> Iterat
     """−10 ≤ x ≤ 10"""
     for name, (low, high) in ranges.items():
         q = Named(Quantity("coordinate", name), system.q(name))
-        ends = [Explicit(sp.nsimplify(round(end, 6), rational=True)) for end in (low, high)]
+        ends = [Explicit(sp.Rational(str(round(end, 6)))) for end in (low, high)]
         yield Relation((ends[0], Inserted(q, {system.q(name): sp.Integer(0)}), ends[1]), "≤")
