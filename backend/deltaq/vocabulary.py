@@ -46,8 +46,10 @@ RangeEnd = Literal["force", "kink", "bend", "contact"]
 SearchEnd = Literal["budget", "continuum", "singular", "kinks", "contacts", "friction"]
 # Parts that a derivation is complete without, and why one is missing: it has not been asked for, its operations were
 # spent, its time was over, it failed, or it is not made for scenes with constraints, or on rates, or such as
-# follow from others; and of multipliers written out: they are too long or too many.
+# follow from others; and of multipliers written out: they are too long or too many. `steps` are those
+# of chapters before the last.
 OptionalPart = Literal[
+    "steps",
     "multipliers",
     "model",
     "equilibria",
@@ -68,6 +70,7 @@ OWN_REASONS: Mapping[Missing, str] = MappingProxyType(
         "many": "-many",
         "dependent": "-dependent",
         "ended": "-ended",
+        "time": "-time",
     }
 )
 # Among which generators symmetries are sought: those affine in coordinates and time; motions of space and rigid bodies.

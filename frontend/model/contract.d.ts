@@ -5016,7 +5016,7 @@ export interface components {
              * @description `model` is all of it
              * @enum {string}
              */
-            part: "multipliers" | "model" | "equilibria" | "contact-equilibria" | "kink-equilibria" | "small-motions" | "integrals" | "relative-equilibria" | "canonical";
+            part: "steps" | "multipliers" | "model" | "equilibria" | "contact-equilibria" | "kink-equilibria" | "small-motions" | "integrals" | "relative-equilibria" | "canonical";
             /**
              * Reason
              * @description `later`: ask for it; `budget`: its operations are spent; `time`: its time is; `failed`: our bug; others are of the scene's own

@@ -5,7 +5,8 @@ from __future__ import annotations
 import time
 from typing import Any
 
-from deltaq.api.jobs import Parts, derive, ensemble_in_blocks
+from deltaq.api.jobs import Parts, derive, ensemble_in_blocks, export
+from deltaq.narration.derive import TimeIsUp
 
 Document = dict[str, Any]
 PAUSE = 1.5
@@ -44,3 +45,20 @@ def broken_ensemble(document: Document) -> Parts:
         if block["first"] != 64:
             yield block
     raise ArithmeticError("of one block")
+
+
+def without_steps(document: Document) -> Parts:
+    """A large scene whose time is over when its equations are there."""
+    parts = derive(document)
+    yield next(parts)
+    yield next(parts)
+    raise TimeIsUp
+
+
+def file_without_steps(document: Document) -> Parts:
+    """A file for which there was no time but for its equations."""
+    return (yield from export({**document, "seconds": 1e-9}))
+
+
+def hurried(document: Document) -> Parts:
+    return (yield from derive({**document, "seconds": 1e-9}))

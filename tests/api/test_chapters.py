@@ -11,6 +11,7 @@ import httpx
 import pytest
 from fastapi import FastAPI
 from tests.api.test_derivations import CHAPTERS, DERIVATIONS
+from tests.derivation.large_scenes import large_scene
 
 from deltaq.api.routes import derivations
 from deltaq.api.workers.job import Job
@@ -124,3 +125,35 @@ async def test_the_rest_is_computed_once_while_the_equations_are_read(
     assert (names(rest), missing(rest)) == (["model"], [])
     assert app.state.service.cache.misses == misses + 1
     assert names(await ask(client, 1.16)) == CHAPTERS
+
+
+@pytest.mark.parametrize("asked", ["all", "equations", "model", "ready"])
+async def test_steps_of_a_large_scene_that_take_too_long_leave_its_equations(
+    client: httpx.AsyncClient, computed_by: BudgetOf, asked: str
+) -> None:
+    computed_by("without_steps", 60.0)
+    scene = large_scene("hinges", 6, 7)
+    response = await client.post(DERIVATIONS, json={"scene": scene, "lang": "en", "chapters": asked})
+    assert response.status_code == 200, response.text
+    answer = DerivationAnswer.model_validate(response.json())
+    assert [each.coordinate for each in answer.result.equations] == [each["name"] for each in scene["coordinates"]]
+    assert missing(answer) == [("steps", "time"), ("model", "time"), ("multipliers", "many")]
+    told = [chapter.id for chapter in answer.chapters if chapter.steps[0].rule != "left-out"]
+    assert told == ([] if asked == "model" else ["lagrange"])
+    assert (await client.get(f"{DERIVATIONS}/{answer.id}")).status_code == 404
+
+
+@pytest.mark.parametrize("asked", ["all", "equations", "ready"])
+async def test_what_there_was_no_time_for_is_named_and_the_answer_not_kept(
+    client: httpx.AsyncClient, computed_by: BudgetOf, asked: str, app: FastAPI
+) -> None:
+    """The time that the derivation is told is over at once, that of the worker is not."""
+    computed_by("hurried", 60.0)
+    response = await client.post(DERIVATIONS, json=question(1.17, chapters=asked))
+    answer = DerivationAnswer.model_validate(response.json())
+    assert response.status_code == 200
+    assert ("steps", "time") in missing(answer)
+    told = [chapter.id for chapter in answer.chapters if chapter.steps[0].rule != "left-out"]
+    assert told == ["lagrange"]
+    assert answer.result.equations
+    assert (await client.get(f"{DERIVATIONS}/{answer.id}")).status_code == 404

@@ -2,8 +2,15 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import httpx
 import pytest
+from fastapi import FastAPI
+from tests.derivation.large_scenes import large_scene
+
+from deltaq.api.routes import exports
+from deltaq.api.workers.job import Job
 
 pytestmark = pytest.mark.anyio
 
@@ -54,3 +61,22 @@ async def test_half_of_an_initial_state(client: httpx.AsyncClient) -> None:
     )
     assert answer.status_code == 200
     assert "0.25" in answer.text
+
+
+@pytest.mark.parametrize("form", ["latex", "markdown"])
+async def test_a_handout_for_which_the_time_is_not_enough_says_what_is_missing(
+    client: httpx.AsyncClient, app: FastAPI, monkeypatch: pytest.MonkeyPatch, form: str
+) -> None:
+    service = app.state.service
+    monkeypatch.setitem(vars(service), "settings", replace(service.settings, derivation_deadline=60.0))
+    monkeypatch.setattr(exports, "EXPORT", Job("tests.api.slow:file_without_steps", 5.0, pace="slow"))
+    question = {"scene": large_scene("hinges", 2, 5), "lang": "en"}
+    answer = await client.post(f"/api/v1/exports/{form}", json=question)
+    assert answer.status_code == 200, answer.text
+    assert answer.text.count("The steps of this chapter are left out") > 4
+    assert "Chapter 8 is missing" in answer.text
+    assert all(f"phi{i}" in answer.text or f"varphi_{{{i}}}" in answer.text for i in (1, 2))
+    monkeypatch.undo()
+    whole = await client.post(f"/api/v1/exports/{form}", json=question)
+    assert "left out" not in whole.text
+    assert len(whole.text) > 2 * len(answer.text)

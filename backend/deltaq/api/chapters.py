@@ -61,20 +61,23 @@ class Chapters:
 
     async def _computed(self, asked: str) -> Found:
         first: asyncio.Future[bytes] = asyncio.get_running_loop().create_future()
+        heard: list[bytes] = []
 
         def hear(update: Update) -> None:
-            if update.kind == "part" and not first.done():
-                first.set_result(update.data)
+            if update.kind == "part":
+                heard[:] = [update.data]
+                if not first.done() and _has_steps(update.data):
+                    first.set_result(update.data)
 
         whole = asyncio.ensure_future(_awaited(self.compute(hear)))
         try:
             if await self._is_enough(asked, first, whole):
-                return Found("equations", await asyncio.to_thread(pack, first.result()))
+                return await asyncio.to_thread(_equations, first.result())
             return await asyncio.to_thread(_selected, asked, await whole)
         except (JobError, InputError) as error:
-            if isinstance(error, PASSING) or not first.done():
+            if isinstance(error, PASSING) or not heard:
                 raise
-            return await asyncio.to_thread(self._cut, asked, first.result(), error)
+            return await asyncio.to_thread(self._cut, asked, heard[0], error)
         finally:
             if asked == "ready":  # the rest will be asked for in a moment
                 whole.add_done_callback(_seen)
@@ -90,15 +93,15 @@ class Chapters:
             await asyncio.wait((whole,), timeout=MOMENT)
         return not whole.done()
 
-    def _cut(self, asked: str, equations: bytes, error: Exception) -> Found:
-        """The equations, and why the rest is missing."""
+    def _cut(self, asked: str, newest: bytes, error: Exception) -> Found:
+        """What was told last, and why the rest is missing."""
         if not isinstance(error, TOO_LARGE):
             report_of(error)  # is logged
-        document = json.loads(equations)
+        document = json.loads(newest)
         why = missing("model", "time" if isinstance(error, TOO_LARGE) else "failed", self.language)
-        document["left_out"] = [why if each["part"] == "model" else each for each in document["left_out"]]
-        if asked == "model":
-            document["chapters"] = []
+        document["left_out"] = [why if each["reason"] == "later" else each for each in document["left_out"]]
+        if asked in ("equations", "model"):
+            document["chapters"] = _of(asked, document["chapters"])
         return Found("cut", _packed(document), lasts=False)
 
     def _key(self, asked: str) -> str:
@@ -120,8 +123,23 @@ def _selected(asked: str, whole: bytes) -> Found:
     if asked not in ("equations", "model"):
         return Found("all", whole)
     document = json.loads(unpack(whole))
-    chapters = [each for each in document["chapters"] if (each["id"] in LAST) is (asked == "model")]
-    return Found(asked, _packed({**document, "chapters": chapters}))
+    return Found(asked, _packed({**document, "chapters": _of(asked, document["chapters"])}))
+
+
+def _equations(part: bytes) -> Found:
+    """The first part as an answer, which may be kept if there was time for all its steps."""
+    left_out = json.loads(part)["left_out"]
+    return Found("equations", pack(part), lasts=all(each["reason"] != "time" for each in left_out))
+
+
+def _of(asked: str, chapters: list[dict[str, Any]]) -> list[dict[str, Any]]:
+    """The chapters that are asked for."""
+    return [each for each in chapters if (each["id"] in LAST) is (asked == "model")]
+
+
+def _has_steps(part: bytes) -> bool:
+    """Whether it is more than the results, with which the part of a large scene begins."""
+    return all(each["reason"] == "later" or each["part"] != "model" for each in json.loads(part)["left_out"])
 
 
 def _packed(document: dict[str, Any]) -> bytes:

@@ -21,6 +21,7 @@ from ..narration.outcome import explained, outcomes_explained
 from ..narration.problems import described
 
 if TYPE_CHECKING:
+    from ..derivation.effort import Allowance
     from ..lab.charts.chart import Chart
     from ..lab.experiment import Experiment
 
@@ -31,8 +32,23 @@ PART_PAUSE = 0.4  # seconds between two parts of a stream
 
 def derive(document: Document) -> Parts:
     """A derivation with its content hash; before it what leads to the equations of motion."""
-    parts = import_module("deltaq.narration.derive").derive_parts(document["request"])
+    derive_parts = import_module("deltaq.narration.derive").derive_parts
+    parts = derive_parts(document["request"], _allowance(document["seconds"]))
     return (yield from _with_id(parts, document["id"]))
+
+
+def _allowance(seconds: float) -> Allowance:
+    """So many seconds from now on."""
+    effort = import_module("deltaq.derivation.effort")
+    found: Allowance = effort.Allowance(seconds, effort.since_now())
+    return found
+
+
+def export(document: Document) -> Parts:
+    """A file; where the time is not enough for all of it, a part that is one without, and TimeIsUp."""
+    export_parts = import_module("deltaq.handout.service").export_parts
+    parts: Parts = export_parts(document["request"], _allowance(document["seconds"]))
+    return (yield from parts)
 
 
 def _with_id(parts: Parts, identifier: str) -> Parts:

@@ -66,7 +66,7 @@ def bound_search(system: System) -> Search | None:
     """The search with holonomic constraints; None where time is in the laws or the constraints."""
     if not is_autonomous(system):
         return None
-    return beside_jumps(system, within(system, Budget(SHARE * OPERATIONS)))
+    return beside_jumps(system, within(system, Budget(SHARE * OPERATIONS, system.effort.look)))
 
 
 def within(system: System, budget: Budget) -> Search:

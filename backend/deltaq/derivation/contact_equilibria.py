@@ -98,7 +98,7 @@ def contact_search(system: System) -> ContactSearch | None:
     degrees = system.scene.degrees_of_freedom
     every = (each for size in range(1, degrees + 1) for each in combinations(still, size))
     choices = tuple(islice(every, MOST + 1))
-    budget = Budget(SHARE * OPERATIONS)
+    budget = Budget(SHARE * OPERATIONS, system.effort.look)
     searches = [_with_closed(system, contacts, degrees, budget) for contacts in choices[:MOST]]
     found = list[ContactEquilibrium]()
     for each in (one for search in searches for one in search.found):

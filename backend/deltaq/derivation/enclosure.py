@@ -38,9 +38,11 @@ class Budget:
     """Operations in ball arithmetic that may still be spent: counted, so that the same question has the same answer."""
 
     left: int
+    look: Callable[[], None] = lambda: None  # raises what ends the search before
 
     def pays(self, cost: int) -> bool:
         """Whether there was enough; it is spent then."""
+        self.look()
         self.left -= cost
         return self.left >= 0
 

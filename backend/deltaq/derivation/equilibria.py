@@ -105,10 +105,11 @@ def search(system: System) -> Search | None:
     """
     if not is_autonomous(system):
         return None
-    found = _in_regions(system, Budget(OPERATIONS)) if 0 < len(switches(system)) <= MOST_SWITCHES else None
+    is_divided = 0 < len(switches(system)) <= MOST_SWITCHES
+    found = _in_regions(system, Budget(OPERATIONS, system.effort.look)) if is_divided else None
     if found is not None:
         return found
-    whole = _with(system, forces_at_rest(system), {}, Budget(OPERATIONS))
+    whole = _with(system, forces_at_rest(system), {}, Budget(OPERATIONS, system.effort.look))
     if not is_jumping(system):
         return beside_jumps(system, whole)
     return _off_switches(system, whole)

@@ -84,7 +84,7 @@ def kink_search(system: System) -> RestSearch | None:
 
 def _search(system: System) -> RestSearch:
     choices = tuple(islice(_choices(system), MOST + 1))
-    budget = Budget(SHARE * OPERATIONS)
+    budget = Budget(SHARE * OPERATIONS, system.effort.look)
     searches = [_with(system, choice, budget) for choice in choices[:MOST]]
     found = sorted((one for each in searches for one in each.kinks), key=lambda each: ORDER.index(each.stability))
     ranges = {q: ends for each in searches for q, ends in each.ranges.items()}

@@ -54,6 +54,7 @@ from .step import Step
 from .system import System
 
 MOST_SHOWN = 4
+TOLD_BEFORE = ("steps", "multipliers")  # what is missing in chapters before
 
 
 def model(system: System) -> Iterator[Step]:
@@ -67,7 +68,7 @@ def model(system: System) -> Iterator[Step]:
         search_of(system)  # which says why not
     yield from _conserved(system)
     missing = system.effort.left_out.items()
-    yield from (left_out.apply(part, why) for part, why in missing if part != "multipliers")  # those are told before
+    yield from (left_out.apply(part, why) for part, why in missing if part not in TOLD_BEFORE)
 
 
 def _equilibria(system: System) -> Iterator[Step]:

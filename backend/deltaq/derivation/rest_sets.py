@@ -139,7 +139,7 @@ class _Line:
             return RestSearch()
         if len(bends(system)) > MOST_SWITCHES:
             return RestSearch(complete=False)
-        budget = Budget(OPERATIONS)
+        budget = Budget(OPERATIONS, system.effort.look)
         marks, complete, is_ranged = self._marks(budget)
         segments = list(self._segments(marks))
         known = [self._rests(middle) for _, middle, _ in segments]

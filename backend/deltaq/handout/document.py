@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import cast
 
-from ..derivation.engine import check_formulation, derive
+from ..derivation.effort import UNBOUNDED, Allowance
+from ..derivation.engine import LAST, chapters, check_formulation, equations_alone, extent
 from ..derivation.released import Release
 from ..derivation.step import Derivation
 from ..derivation.system import System
@@ -16,7 +18,7 @@ from ..mechanics.requests import inside
 from ..mechanics.scene import Scene
 from ..mechanics.user_text import UserText, in_language
 from ..narration.catalog import text, with_decimal_mark
-from ..narration.derive import chapters_of_reactions, narrator_of, releases_of
+from ..narration.derive import LARGE, chapters_of_reactions, narrator_of, releases_of
 from ..narration.prose import CatalogText, words
 
 
@@ -67,6 +69,7 @@ class Handout:
     coordinates: tuple[Value, ...]
     parameters: tuple[Value, ...]
     parts: tuple[Part, ...]
+    is_cut: bool = False  # whether the time was not enough for all of it
 
     def say(self, key: str) -> CatalogText:
         """A sentence of the handout itself."""
@@ -74,13 +77,41 @@ class Handout:
 
 
 def handout_of(
-    scene: Scene, language: str, formulation: str, *, substeps: bool = True, release: Sequence[str] = ()
+    scene: Scene,
+    language: str,
+    formulation: str,
+    *,
+    substeps: bool = True,
+    release: Sequence[str] = (),
+    allowance: Allowance = UNBOUNDED,
 ) -> Handout:
     """The handout of a scene. Raises UnknownNameError for an unknown formulation, and for what cannot be released."""
+    parts = handouts(scene, language, formulation, substeps=substeps, release=release, allowance=allowance)
+    return tuple(parts)[-1]
+
+
+def handouts(
+    scene: Scene,
+    language: str,
+    formulation: str,
+    *,
+    substeps: bool = True,
+    release: Sequence[str] = (),
+    allowance: Allowance = UNBOUNDED,
+) -> Iterator[Handout]:
+    """The same; of a large scene before it one that has the equations of motion alone, if a time is allowed."""
     check_formulation(formulation)
+    system = System(scene)
+    system.effort.allowance = allowance
+    releases = releases_of(system, release)
     with inside("/scene"):
-        system, derivation = derive(scene, formulation)
-    return written_down(system, derivation, language, substeps=substeps, releases=releases_of(system, release))
+        if extent(system) >= LARGE and allowance.seconds < math.inf:
+            alone = Derivation(formulation, equations_alone(system, formulation))
+            told = written_down(system, alone, language, substeps=substeps, releases=releases, is_cut=True)
+            yield told
+        derivation = Derivation(formulation, tuple(chapters(system, formulation)))
+    is_cut = "time" in system.effort.left_out.values()
+    yield written_down(system, derivation, language, substeps=substeps, releases=releases, is_cut=is_cut)
 
 
 def written_down(
@@ -90,19 +121,33 @@ def written_down(
     *,
     substeps: bool = True,
     releases: Sequence[Release] = (),
+    is_cut: bool = False,
 ) -> Handout:
-    """The handout of a derivation that has been made; what holds the `releases` stands before the last chapter."""
+    """The handout of a derivation that has been made, and what is missing in it for want of time.
+
+    What holds the `releases` stands before the last chapter.
+    """
     scene = system.scene
-    chapters = narrator_of(system, language).chapters(derivation)
-    chapters[-1:-1] = chapters_of_reactions(releases, derivation.formulation, language)
+    told = narrator_of(system, language).chapters(derivation)
+    if is_cut and not any(chapter.id == LAST and chapter.steps for chapter in derivation.chapters):
+        told.append(_without_model(language))
+    told[-1:-1] = chapters_of_reactions(releases, derivation.formulation, language)
     return Handout(
         language,
         in_language(scene.title, language),
         in_language(scene.summary, language),
         tuple(_initial_values(system, language)),
         tuple(Value(_latex(scene, p.name), p.name, p.value, _unit(p.unit), language) for p in scene.parameters),
-        tuple(_part(language, str(i), chapter, substeps=substeps) for i, chapter in enumerate(chapters, 1)),
+        tuple(_part(language, str(i), chapter, substeps=substeps) for i, chapter in enumerate(told, 1)),
+        is_cut,
     )
+
+
+def _without_model(language: str) -> dict[str, object]:
+    """The last chapter where the time was not enough for it."""
+    told = {"title": text(language, "rules.steps.left-out.title"), "text": text(language, "rules.left-out.time")}
+    step = {**told, "latex": "", "substeps": ()}
+    return {"id": "model", "title": text(language, "rules.chapters.model"), "steps": (step,)}
 
 
 def _latex(scene: Scene, name: str) -> str:

@@ -9,14 +9,17 @@ from typing import Any
 
 from ..contract.derivation import DerivationRequest
 from ..contract.reading import read
-from ..derivation.engine import chapters, chapters_of_equations, reactions
+from ..derivation.effort import UNBOUNDED, Allowance
+from ..derivation.engine import chapters, chapters_of_equations, equations_alone, extent, reactions, untold
 from ..derivation.released import Release
 from ..derivation.result import Result, equations_of, result_of
 from ..derivation.result_history import result_origins
 from ..derivation.step import Chapter, Derivation
 from ..derivation.system import System
+from ..errors import DeltaqError
 from ..language.latex_printer import Typography
 from ..mechanics.requests import changed_scene, inside
+from ..vocabulary import OptionalPart
 from .catalog import language_of
 from .expression_writer import ExpressionWriter
 from .letters import letters_of
@@ -31,6 +34,13 @@ from .symbols import QuantitySymbols
 Document = dict[str, object]
 
 
+LARGE = 40  # extent of a scene from which on the equations of motion come before the steps that lead to them
+
+
+class TimeIsUp(DeltaqError):
+    """The last document that was told lacks what the time was not enough for."""
+
+
 def derive_request(document: Mapping[str, object]) -> Document:
     """Derives what the request names, all but its id. Raises InputError for what cannot be read.
 
@@ -43,14 +53,27 @@ def derive_request(document: Mapping[str, object]) -> Document:
         return told.whole()
 
 
-def derive_parts(document: Mapping[str, object]) -> Generator[Document, None, Document]:
-    """Yields the equations of motion with the chapters that lead to them; returns what `derive_request` does."""
+def derive_parts(
+    document: Mapping[str, object], allowance: Allowance = UNBOUNDED
+) -> Generator[Document, None, Document]:
+    """Yields the equations of motion with the chapters that lead to them; returns what `derive_request` does.
+
+    Of a large scene the results alone come first. Where the time that is allowed is not enough, the document without
+    what is missing is yielded, and TimeIsUp raised: it is not the answer to the request.
+    """
     told = _read(document)
+    told.system.effort.allowance = allowance
     with inside("/scene"):
+        if told.is_large:
+            yield from told.results()
         told.tell_equations()
         told.tell_reactions()
         yield told.equations()
-        return told.whole()
+        whole = told.whole()
+        if "time" in told.system.effort.left_out.values():
+            yield whole
+            raise TimeIsUp
+        return whole
 
 
 def narrated(system: System, derivation: Derivation, language: str) -> Document:
@@ -105,6 +128,19 @@ class _Told:
         """Tells what holds the released lengths and coordinates."""
         self.chapters += chapters_of_reactions(self.releases, self.formulation, self.language)
 
+    @property
+    def is_large(self) -> bool:
+        """Whether telling the steps may take longer than there is time."""
+        return extent(self.system) >= LARGE
+
+    def results(self) -> Iterator[Document]:
+        """The results up to the equations of motion, then these as steps; other chapters say what is missing."""
+        found = self._document(equations_of(self.system), self._missing)
+        parts: tuple[OptionalPart, ...] = ("steps", "model")
+        found["left_out"] = [*(missing(part, "time", self.language) for part in parts), *self._missing]
+        for derived in (untold, equations_alone):
+            yield {**found, "chapters": self.narrator.told(derived(self.system, self.formulation))[0]}
+
     def equations(self) -> Document:
         """These chapters and their results; those of the last one are empty."""
         return self._document(equations_of(self.system), [missing("model", "later", self.language), *self._missing])
@@ -112,7 +148,7 @@ class _Told:
     def whole(self) -> Document:
         """The last chapter behind what has been told, and all results."""
         self._tell(tuple(self.steps))
-        found = result_of(self.system)
+        found = equations_of(self.system) if "model" in self.system.effort.left_out else result_of(self.system)
         return self._document(found, self._missing)
 
     @property

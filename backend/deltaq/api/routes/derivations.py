@@ -34,7 +34,7 @@ async def derive(request: Request, body: DerivationRequest) -> Response:
     service = service_of(request)
     identifier, question = named(question_of(request, body))
     job = expected(DERIVE.within(service.settings.derivation_deadline), body, FAST)
-    document = {"id": identifier, "request": question}
+    document = {"id": identifier, "request": question, "seconds": service.settings.derivation_deadline}
     compute = partial(service.parts, _key(identifier), job, document)
     found = await Chapters(identifier, question["lang"], service.cache, compute).answer(body.chapters)
     if found.name == "all":

@@ -10,13 +10,14 @@ from fastapi import APIRouter, Path, Request, Response
 from ...contract.export import ExportRequest, Form
 from ..body import StrictRoute
 from ..costs import expected
+from ..flights import Update
 from ..packing import unpack
-from ..service import service_of
-from ..workers.job import Job
+from ..service import Service, service_of
+from ..workers.job import DeadlineExceeded, Job
 from .common import COMPUTING, question_of
 
 router = APIRouter(prefix="/exports", tags=["exports"], route_class=StrictRoute)
-EXPORT = Job("deltaq.handout.service:export_request", deadline=5.0)
+EXPORT = Job("deltaq.api.jobs:export", deadline=5.0)
 FAST = 4  # degrees of freedom
 MEDIA_TYPES = {"latex": "application/x-tex", "markdown": "text/markdown", "python": "text/x-python"}
 FILES: dict[int | str, dict[str, Any]] = {
@@ -32,7 +33,24 @@ async def export_derivation(
     service = service_of(request)
     question = {"form": form, **question_of(request, body)}
     job = expected(EXPORT.within(service.settings.derivation_deadline), body, FAST)
-    answer = await service.answer(service.key(EXPORT.target, question), job, question)
-    file = loads(unpack(answer))
+    document = {"request": question, "seconds": service.settings.derivation_deadline}
+    file = await _file(service, service.key(EXPORT.target, question), job, document)
     headers = {"Content-Disposition": f'attachment; filename="{file["name"]}"', "Vary": "Accept-Language"}
     return Response(file["text"], media_type=f"{MEDIA_TYPES[form]}; charset=utf-8", headers=headers)
+
+
+async def _file(service: Service, key: str, job: Job, document: dict[str, Any]) -> dict[str, str]:
+    """Name and text; where there was no time for all of it, the file without that, which is not kept."""
+    heard: list[bytes] = []
+
+    def hear(update: Update) -> None:
+        if update.kind == "part":
+            heard[:] = [update.data]
+
+    try:
+        found: dict[str, str] = loads(unpack(await service.parts(key, job, document, hear)))
+    except DeadlineExceeded:
+        if not heard:
+            raise
+        found = loads(heard[0])
+    return found

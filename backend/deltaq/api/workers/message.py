@@ -15,7 +15,7 @@ from pydantic_core import to_json
 
 from ... import errors
 from ...errors import DeltaqError, InputError, Problem
-from .job import JobFailed, MemoryExceeded
+from .job import DeadlineExceeded, JobFailed, MemoryExceeded
 
 READY = b"ready"
 ANSWER = b"+"
@@ -74,6 +74,8 @@ def decode_reply(reply: bytes) -> bytes | DeltaqError:
     failure = Failure(**json.loads(reply[1:]))
     if failure.kind in _INPUT_ERRORS:
         return _INPUT_ERRORS[failure.kind](*(Problem(**problem) for problem in failure.problems))
+    if failure.kind == "TimeIsUp":
+        return DeadlineExceeded("what came before lacks what there was no time for")
     if failure.kind in {"MemoryError", "RecursionError"}:
         return MemoryExceeded(failure.summary)
     return JobFailed(failure.summary, failure.trace)

@@ -13,6 +13,7 @@ from ..step import Step
 RULE = "left-out"
 
 
-def apply(part: OptionalPart, why: Missing) -> Step:
-    """A step of words only."""
-    return Step(RULE, part, (), (), {"outcome": f"{part}{OWN_REASONS.get(why, '')}"})
+def apply(part: OptionalPart, why: Missing, chapter: str = "") -> Step:
+    """A step of words only; of one chapter, where it stands for its steps."""
+    subject = f"{part}:{chapter}" if chapter else part
+    return Step(RULE, subject, (), (), {"outcome": f"{part}{OWN_REASONS.get(why, '')}"})
