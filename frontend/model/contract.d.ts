@@ -6702,6 +6702,14 @@ export interface components {
              */
             at?: string | null;
             /**
+             * Displacements
+             * @description ∂r/∂l of the places that it moves, as plain text: F·∂r/∂l = Z of a force F at one of them
+             * @default {}
+             */
+            displacements: {
+                [key: string]: string[];
+            };
+            /**
              * Held
              * @description where `reaction` is that of slipping and of open contacts: what it is while one holds
              * @default []

@@ -48,7 +48,8 @@ export function reactionRows(scene, trajectory, { hidden }) {
  */
 export function frictionRows(scene, trajectory, { hidden }) {
   const { t: times, friction } = trajectory;
-  const { coordinates, constraints, loads } = scene;
+  const { coordinates, loads } = scene;
+  const first = coordinates.length + countOfReactions(scene, trajectory);
   /** The coordinate that a friction acts on, or one of those that it is a sum of. @param {string} name */
   const slipping = (name) => {
     const text = loads.find((load) => load.name === name)?.coordinate ?? "";
@@ -62,7 +63,7 @@ export function frictionRows(scene, trajectory, { hidden }) {
       key: `${key}-${name}`,
       name: several ? `${latex} (${name})` : latex,
       latex,
-      className: `q-${coordinates.length + (constraints ?? []).length + k}`,
+      className: `q-${first + k}`,
       values,
       times,
       at: smooth(times, values),
@@ -92,9 +93,10 @@ export function frictionRows(scene, trajectory, { hidden }) {
  * The forces N of contacts that rest, or of strings that are taut, as far as there is one at any time.
  * @param {Scene} scene @param {Trajectory} trajectory @param {Look} look @returns {Row[]}
  */
-export function contactRow({ coordinates, constraints, loads }, trajectory, { hidden }) {
+export function contactRow(scene, trajectory, { hidden }) {
   const { t: times, contacts } = trajectory;
-  const first = coordinates.length + (constraints ?? []).length + (loads ?? []).length;
+  const { coordinates, loads } = scene;
+  const first = coordinates.length + countOfReactions(scene, trajectory) + (loads ?? []).length;
   const acting = Object.entries(contacts ?? {}).filter(([, { force }]) => force.some((value) => value !== 0));
   const curves = acting.map(([name, { force }], k) => {
     const latex = symbolOfContact(trajectory, name);
@@ -117,6 +119,10 @@ export function contactRow({ coordinates, constraints, loads }, trajectory, { hi
   const [unit = "", ...others] = new Set(acting.map(([, one]) => one.unit));
   return curves.length ? [{ key: "contacts", unit: others.length ? "" : unit, least: 0, curves }] : [];
 }
+
+/** How many colours those of constraints and of what is released take. @param {Scene} scene @param {Trajectory} trajectory */
+const countOfReactions = ({ constraints }, { multipliers }) =>
+  Math.max((constraints ?? []).length, Object.keys(multipliers ?? {}).length);
 
 /** N, with a number where there are several contacts. @param {Trajectory} trajectory @param {string} name */
 function symbolOfContact({ contacts }, name) {

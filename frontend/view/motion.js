@@ -116,7 +116,7 @@ export function createMotion({ root, state, clock, session, send, still, update 
           ? { scene, trajectory, runs, duration: place.duration, lang: place.lang, theme, look: place.plot }
           : null,
       );
-      if (place.vary || place.with || place.runs || place.why || place.plot) void instruments.want();
+      if (place.vary || place.with || place.release || place.runs || place.why || place.plot) void instruments.want();
       instruments.part?.show();
       begin();
       move(clock.time);

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import pytest
 import sympy as sp
 
@@ -213,3 +215,27 @@ def test_what_holds_a_length_of_several_rods_is_no_force_of_one(
     assert ({"de": "Summe", "en": "sum"}[language] in step["text"]) is not has_force
     told = run({"scene": scene, "t_end": 1.0, "release": ["l"]})["reactions"]
     assert told == {"l": {"unit": "N", "of_rod": has_force}}
+
+
+# ∂r/∂l of the places that move: where a force that works on it alone may act.
+DISPLACEMENTS = [
+    pytest.param("pendulum", "l", {"bob": ("sin(phi)", "cos(phi)")}, id="a rod"),
+    pytest.param(
+        "guided-pendulum", "y", {"pivot": ("0", "1"), "bob": ("0", "1")}, id="a guide moves all that hangs on it"
+    ),
+    pytest.param(
+        "double-pendulum",
+        "l1",
+        {"upper": ("sin(phi1)", "cos(phi1)"), "lower": ("sin(phi1)", "cos(phi1)")},
+        id="a rod that carries another",
+    ),
+]
+
+
+@pytest.mark.parametrize(("scene", "name", "expected"), DISPLACEMENTS)
+def test_a_result_says_which_places_move_with_the_released(
+    scene: str, name: str, expected: dict[str, tuple[str, ...]]
+) -> None:
+    found: Any = derive_request({"scene": scene, "release": [name]})["result"]
+    (reaction,) = found["reactions"]
+    assert {place: tuple(along) for place, along in reaction["displacements"].items()} == expected

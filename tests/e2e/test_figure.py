@@ -266,3 +266,23 @@ def test_a_number_beyond_the_range_of_the_scene_is_told(lecture: Lecture) -> Non
     length.locator(".decimal").fill("1.5")
     length.locator(".decimal").press("Enter")
     expect(length.locator(".hint")).to_have_text("")
+
+
+@pytest.mark.parametrize(
+    ("query", "stress", "label"),
+    [
+        pytest.param("scene=pendulum&release=l", "tension", "S", id="a rod hangs"),
+        pytest.param("scene=pendulum&release=l&set=phi:3:0", "thrust", "S", id="a rod stands"),
+        pytest.param("scene=kapitza&release=y", None, "Z", id="a guide is no rod"),
+    ],
+)
+def test_what_holds_the_released_is_drawn(lecture: Lecture, query: str, stress: str | None, label: str) -> None:
+    """The arrow is there without a tool, and the rod has the colour of tension or thrust."""
+    lecture.page.emulate_media(reduced_motion="reduce")
+    lecture.open(f"?{query}&lang=en")
+    page = lecture.page
+    expect(page.locator(".drawing .vector-h").first).to_be_attached()
+    expect(page.locator(".drawing .stress")).to_have_count(0 if stress is None else 1)
+    if stress is not None:
+        expect(page.locator(f".drawing .stress.{stress}")).to_have_count(1)
+    expect(page.locator(".labels .vector-h").first).to_contain_text(label)

@@ -5,7 +5,7 @@ import { configured, kinematicsOf } from "../../frontend/model/kinematics/kinema
 import { reached } from "../../frontend/model/kinematics/reach.js";
 import { snapshotAt } from "../../frontend/model/trajectory.js";
 import { readChoice, writeChoice } from "../../frontend/model/virtual/choice.js";
-import { frictionOf, reactionOf } from "../../frontend/model/figure/reactions.js";
+import { frictionOf, reactionOf, releasedOf, stressOf } from "../../frontend/model/figure/reactions.js";
 import { vectorFigure, vectorSymbols } from "../../frontend/model/figure/vectors.js";
 import { virtualFigure } from "../../frontend/model/virtual/figure.js";
 import { virtualOf } from "../../frontend/model/virtual/virtual.js";
@@ -162,4 +162,49 @@ test("friction acts at the place that its coordinate alone moves, along that way
   assert.ok(near(found.force, [-4, -3]));
   assert.deepEqual(frictionOf(slide, moving, here, { dry: -5, pivot: 2 }, "pivot"), [], "a moment is no force at one place");
   assert.deepEqual(frictionOf(slide, moving, here, {}, "dry"), []);
+});
+
+/** A rod on a pivot, and what is released of it: its length, the height of its pivot, and a radius that nothing is drawn with. */
+const hung = /** @type {any} */ ({
+  dimension: 2, coordinates: [{ name: "phi" }], parameters: [{ name: "l", value: 2 }, { name: "R", value: 2 }], bodies: [{ name: "bob" }], loads: [], points: [{ name: "pivot" }],
+  drawing: { elements: [{ kind: "rod", from: "pivot", to: "bob", label: "l" }] },
+});
+const away = { bob: ["sin(phi)", "-cos(phi)"] };
+const whole = (/** @type {string} */ kind) => kinematicsOf(hung, /** @type {any} */ ({
+  points: { pivot: { plain: ["0", "0"] } },
+  positions: { bob: { plain: ["l*sin(phi)", "-l*cos(phi)"] } },
+  reactions: [
+    { name: "l", kind, displacements: away },
+    { name: "R", kind: "length", displacements: away },
+    { name: "y", kind: "guide", displacements: { bob: ["0", "1"], pivot: ["0", "1"] } },
+  ],
+}), {});
+const swung = /** @type {any} */ ({ t: 0, coordinates: { phi: 0.5 }, rates: { phi: 0 }, positions: { pivot: [0, 0], bob: [2 * Math.sin(0.5), -2 * Math.cos(0.5)] } });
+/** @type {[string, string, string, string, (number | string | boolean)[][]][]} */
+const RELEASED = [
+  ["a rod pulls what hangs on it", "length", "l", "tension", [["bob", -3 * Math.sin(0.5), 3 * Math.cos(0.5), true]]],
+  ["a rod with mass pulls where it hangs", "rod", "l", "tension", [["pivot", 3 * Math.sin(0.5), -3 * Math.cos(0.5), true]]],
+  ["what no rod is drawn with is held where it is", "length", "R", "", [["bob", -3 * Math.sin(0.5), 3 * Math.cos(0.5), true]]],
+  ["a guide acts where it alone works", "length", "y", "", [["pivot", 0, -3, true]]],
+];
+for (const [title, kind, name, stress, expected] of RELEASED) {
+  test(`${title}: where what is released is held`, () => {
+    const moving = whole(kind);
+    const found = releasedOf(hung, moving, swung, { [name]: -3 }, name);
+    const round = (/** @type {unknown} */ x) => (typeof x === "number" ? Number(x.toFixed(4)) + 0 : x);
+    assert.deepEqual(found.map(({ place, force, plain }) => [place, ...force, plain].map(round)), expected.map((row) => row.map(round)));
+    const stressed = stressOf(hung, moving, swung, { [name]: -3 }, name);
+    assert.deepEqual(stressed && [stressed.ends, stressed.tension], stress ? [["pivot", "bob"], 3] : null);
+    assert.deepEqual(releasedOf(hung, moving, swung, {}, name), [], "nothing is drawn where it is not determined");
+  });
+}
+
+test("a rod has a colour for tension and one for thrust, below its arrow", () => {
+  const stage = stageOf(/** @type {any} */ ({ ...scene, ...hung, drawing: { ...scene.drawing, ...hung.drawing } }), { ...trajectory, positions: { bob: trajectory.positions.bob } }, square(400));
+  for (const [force, name] of /** @type {const} */ ([[-3, "tension"], [3, "thrust"]])) {
+    const motion = { kinematics: whole("length"), symbols: new Map([["h l", "S_{l}"]]), at: () => swung, multipliers: () => ({ l: force }), frictions: () => ({}), end: 1 };
+    const { shapes, labels } = vectorFigure(stage, swung, [{ of: "l", vector: "h" }], motion);
+    assert.deepEqual(shapes.map(({ className }) => className), [`stress ${name}`, "pointed arrow vector vector-h q-1 released-l"]);
+    assert.deepEqual(labels.map(({ latex }) => latex), ["S_{l}"]);
+  }
 });

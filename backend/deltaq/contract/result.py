@@ -200,6 +200,9 @@ class ReactionResult(Answer):
     closed: bool = Field(description="whether no accelerations are left in it")
     force: Formula | None = Field(description="of a rod or string, its force −Z, positive in tension")
     at: str | None = Field(None, description="the end of a rod with mass at which that is its force")
+    displacements: dict[str, tuple[str, ...]] = Field(
+        {}, description="∂r/∂l of the places that it moves, as plain text: F·∂r/∂l = Z of a force F at one of them"
+    )
     held: tuple[HeldReactionResult, ...] = Field(
         (), description="where `reaction` is that of slipping and of open contacts: what it is while one holds"
     )

@@ -15,10 +15,12 @@ from functools import cached_property
 
 import sympy as sp
 
+from ..language.derivatives import diff
 from ..language.display import size
 from ..mechanics.release import Held, find_held, let_go
 from ..vocabulary import HoldKind
 from .accelerations import LONGEST, accelerations
+from .calculus import V
 from .matrix_form import left_side
 from .system import System
 
@@ -74,10 +76,17 @@ class Release:
         """Z in the scene's own motion, with its accelerations, in the scene's own symbols."""
         return self.as_held(self.reaction)
 
-    def as_held(self, expression: sp.Expr) -> sp.Expr:
+    def as_held(self, expression: V) -> V:
         """What an expression of the wider system is in the scene's own motion."""
         own = {self.wider.q(self.name): self.system.q(self.name)} if self.kind != "guide" else {}
         return self.system.display(expression.xreplace(dict(self.constancy)).xreplace(own))
+
+    @property
+    def displacements(self) -> Mapping[str, sp.ImmutableMatrix]:
+        """∂r/∂l of the places that move with what was released, in the scene's own motion."""
+        wider, symbol = self.wider, self.wider.q(self.coordinate)
+        moved = {place: self.as_held(diff(wider.position(place), symbol)) for place in self.system.scene.places}
+        return {place: along for place, along in moved.items() if not along.is_zero_matrix}
 
     @cached_property
     def accelerations(self) -> Mapping[sp.Symbol, sp.Expr] | None:

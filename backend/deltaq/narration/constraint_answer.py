@@ -6,6 +6,7 @@ from ..derivation.held_reactions import held_reactions, reaction_impulses, rival
 from ..derivation.impacts import Contact, Impact, Sticking
 from ..derivation.released import Release
 from ..derivation.result import Bound
+from ..language.plain_printer import plain
 from ..mechanics.release import held
 from ..mechanics.scene import Scene
 from .expression_writer import ExpressionWriter
@@ -37,6 +38,7 @@ def reaction(release: Release, write: ExpressionWriter) -> Document:
         "closed": release.closed is not None,
         "force": None if force is None else write.written(force),
         "at": shift.rod.start if shift and shift.rod else None,
+        "displacements": {place: [plain(x) for x in along] for place, along in release.displacements.items()},
         **({"held": held_ones} if (held_ones := _held(release, write)) else {}),
         **({"impulses": impulses} if (impulses := _impulses(release, write)) else {}),
         **({"shared_with": list(shared)} if (shared := rivals(release)) else {}),

@@ -1,6 +1,6 @@
 /**
- * Reactions of constraints and dry friction as arrows: a rod pulls both of its ends together by its multiplier; of any other constraint
- * the force F(P) at the one place P that does the same work, Qᵢ = F · ∂r(P)/∂qᵢ for every coordinate, where there is one.
+ * Reactions of constraints, of what is released and of dry friction as arrows: a rod pulls both of its ends together; of any other
+ * reaction the force F(P) at the one place P that does the same work, Qᵢ = F · ∂r(P)/∂qᵢ for every coordinate, where there is one.
  */
 
 /** @typedef {import("../types.js").Snapshot} Snapshot */
@@ -109,4 +109,57 @@ export function reactionOf(scene, kinematics, now, multipliers, name) {
     kinematics.free.map((coordinate) => found.forces[coordinate] ?? 0),
     found.multiplier,
   ).slice(0, 1);
+}
+
+/**
+ * The rod or string that is drawn with a length, between two places; none where several are, or where what was released is no
+ * single rod.
+ * @param {Scene} scene @param {Kinematics} kinematics @param {string} name @returns {[string, string] | null}
+ */
+function rodOf(scene, kinematics, name) {
+  if (!["length", "rod"].includes(kinematics.held[name])) return null;
+  const drawn = (scene.drawing?.elements ?? []).filter(
+    ({ kind, label }) => (kind === "rod" || kind === "string") && label === name,
+  );
+  const [{ from, to } = {}] = drawn;
+  return drawn.length === 1 && typeof from === "string" && typeof to === "string" ? [from, to] : null;
+}
+
+/**
+ * Where what was released is held, and with which force in newtons: by a rod at those of its ends that can move, of one with mass
+ * at its near end; else by the force at one place that works on what was released alone.
+ * @param {Scene} scene @param {Kinematics} kinematics @param {Snapshot} now @param {Record<string, number>} multipliers  Z by name @param {string} name
+ * @returns {Reaction[]}
+ */
+export function releasedOf(scene, kinematics, now, multipliers, name) {
+  const force = multipliers[name];
+  if (!Number.isFinite(force)) return [];
+  const slopes = slopesOf(kinematics, now, kinematics.free);
+  const rod = rodOf(scene, kinematics, name);
+  if (rod) return kinematics.held[name] === "rod" ? atNearEnd(now, rod, -force) : pulled(slopes, now, rod, -force);
+  const along = Object.entries(kinematics.displacements[name]?.(now) ?? {});
+  const wider = along.map(([place, slope]) => [place, [...(slopes[place] ?? []), slope]]);
+  const found = alone(Object.fromEntries(wider), [...kinematics.free.map(() => 0), force], force);
+  return [...found.filter(({ plain }) => plain), ...found].slice(0, 1);
+}
+
+/** What a rod with mass does to the place that it hangs on. @param {Snapshot} now @param {[string, string]} ends @param {number} pull @returns {Reaction[]} */
+function atNearEnd({ positions }, [from, to], pull) {
+  if (!positions[from] || !positions[to]) return [];
+  const span = positions[to].map((x, c) => x - positions[from][c]);
+  const length = Math.hypot(...span);
+  return [{ place: from, force: span.map((x) => (pull * x) / length), plain: true }];
+}
+
+/**
+ * The two ends of the rod that a reaction belongs to, and its force, positive in tension; null where it is no rod's.
+ * @param {Scene} scene @param {Kinematics} kinematics @param {Snapshot} now @param {Record<string, number>} multipliers @param {string} name
+ * @returns {{ends: [string, string], tension: number} | null}
+ */
+export function stressOf(scene, kinematics, now, multipliers, name) {
+  const rod = rodOf(scene, kinematics, name);
+  if (rod) return { ends: rod, tension: -multipliers[name] };
+  const { from, to } = (scene.constraints ?? []).find((candidate) => candidate.name === name) ?? {};
+  const found = from && to ? kinematics.reactions(now, multipliers).find((one) => one.constraint === name) : null;
+  return from && to && found ? { ends: [from, to], tension: found.multiplier } : null;
 }

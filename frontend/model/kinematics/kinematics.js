@@ -17,6 +17,8 @@ const H = 1e-5;
  * @property {(q: Values, t: number) => Places} places
  * @property {(q: Values, t: number, along: Values, time?: number) => Places} slope  Σ ∂r/∂qᵢ·alongᵢ + ∂r/∂t·time of every place
  * @property {(q: Values, rates: Values, t: number, delta: Values) => {load: string, work: number}[]} works  δW of every load
+ * @property {Record<string, (now: Snapshot) => Places>} displacements  ∂r/∂l of places, by what is released
+ * @property {Record<string, string>} held  what kind of thing holds it: "length" or "rod" where it is a single rod
  * @property {(now: Snapshot, multipliers: Values) => {constraint: string, multiplier: number, forces: Values}[]} reactions  Qᵢ of every constraint
  */
 
@@ -40,6 +42,17 @@ export function kinematicsOf(scene, result, parameters) {
     forces: forces.map(({ coordinate, plain }) => ({ coordinate, of: evaluator(plain) })),
   }));
 
+  const displacements = (result.reactions ?? []).map(({ name, displacements: moved }) => {
+    const parts = Object.entries(moved ?? {}).map(
+      ([place, along]) => /** @type {const} */ ([place, along.map(evaluator)]),
+    );
+    const at = (/** @type {Snapshot} */ { coordinates, rates, t }) => {
+      const values = { ...given, ...coordinates, ...wrapped("dot", rates), t };
+      return Object.fromEntries(parts.map(([place, along]) => [place, along.map((part) => part(values))]));
+    };
+    return /** @type {const} */ ([name, at]);
+  });
+
   /** @param {Values} q @param {number} t @returns {Places} */
   function places(q, t) {
     const values = { ...given, ...q, t };
@@ -49,6 +62,8 @@ export function kinematicsOf(scene, result, parameters) {
   return {
     free: scene.coordinates.map(({ name }) => name).filter((name) => !guided.has(name)),
     places,
+    displacements: Object.fromEntries(displacements),
+    held: Object.fromEntries((result.reactions ?? []).map(({ name, kind }) => [name, kind])),
     slope(q, t, along, time = 0) {
       const [after, before] = [1, -1].map((sign) => places(moved(q, along, sign * H), t + sign * H * time));
       return Object.fromEntries(

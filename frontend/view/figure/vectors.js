@@ -1,4 +1,4 @@
-/** Arrows r and v of bodies, reactions of constraints and dry friction: of those whose symbols are pointed at, and of all while their tool is on. */
+/** Arrows r and v of bodies, reactions of constraints and dry friction: of those whose symbols are pointed at, and of all while their tool is on; and of what is released. */
 
 import { groundOf, placed } from "../../model/drawing/placing.js";
 import { vectorFigure, vectorSymbols } from "../../model/figure/vectors.js";
@@ -26,6 +26,14 @@ export function createVectors(bench, { draw }) {
     return known.symbols;
   }
 
+  /** What was released is held by an arrow as long as it is asked for. @returns {Arrow[]} */
+  function released() {
+    return state()
+      .place.release.split(",")
+      .filter(Boolean)
+      .map((of) => ({ of, vector: "h" }));
+  }
+
   function wanted() {
     const { place, scene } = state();
     if (scene && place.with.split(",").includes("vectors"))
@@ -35,9 +43,10 @@ export function createVectors(bench, { draw }) {
         ...scene.loads
           .filter(({ kind }) => kind === "friction")
           .map(({ name }) => ({ of: name, vector: /** @type {const} */ ("f") })),
+        ...released(),
       ];
     const { vectors } = root.dataset;
-    return vectors && vectors !== "[]" ? pointedAt(vectors) : [];
+    return [...(vectors && vectors !== "[]" ? pointedAt(vectors) : []), ...released()];
   }
 
   function clear() {
@@ -64,7 +73,7 @@ export function createVectors(bench, { draw }) {
     const frictions = (/** @type {number} */ t) => frictionsAt(trajectory, t);
     const motion = { kinematics: moving, symbols: symbols(), at, multipliers, frictions, end: endOf(trajectory) };
     const figure = vectorFigure(stage, moment, arrows, motion);
-    const all = state().place.with.split(",").includes("vectors");
+    const all = state().place.with.split(",").includes("vectors") || released().length > 0;
     keepOff(all ? figure : null, all ? arrows.length : 0);
     draw(placed(stage, figure, clock.time, parts.drawing.ground), stage.size);
     drawn = true;
