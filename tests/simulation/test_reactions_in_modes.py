@@ -200,3 +200,21 @@ def test_a_length_in_a_gap_is_refused_and_the_advice_helps() -> None:
     assert dict(problem.parameters)["event"] == "wall"
     found: Any = run({"scene": beam(wall["b"], gap="b"), "t_end": 2.0, "samples": 5, "release": ["b"], **ASKED})
     assert all("b" in each["impulses"] for each in found["events"] if each["kind"] == "impact")
+
+
+def test_what_holds_a_string_that_catches_is_its_tension() -> None:
+    """−Z = m (v² − g y)/l while it is taut and 0 while it is not, and m v·e at a jerk, which takes all of that."""
+    found: Any = run({"scene": "catching-pendulum", "t_end": 4.0, "samples": 201, "release": ["l"], **ASKED})
+    times = np.array(found["t"])
+    x, y, u, v = (np.array(found[part][name]) for part in ("coordinates", "rates") for name in ("x", "y"))
+    tension, is_taut = -np.array(found["multipliers"]["l"]), np.array(found["contacts"]["taut"]["force"]) > 0.0
+    assert is_taut.any()
+    assert not is_taut.all()
+    np.testing.assert_allclose(tension[is_taut], (u**2 + v**2 - 9.81 * y)[is_taut], atol=1e-6)
+    np.testing.assert_array_equal(tension[~is_taut], 0.0)
+    (jerk,) = (each for each in found["events"] if each["kind"] == "rest" and each["loss"] > 1e-3)
+    before = int(np.abs(times - jerk["time"]).argmin())
+    before -= times[before] == times[before - 1]
+    along = x[before] * u[before] + y[before] * v[before]
+    assert -jerk["impulses"]["l"] == pytest.approx(along, rel=1e-4)
+    assert found["reactions"]["l"] == {"unit": "N", "of_rod": True}

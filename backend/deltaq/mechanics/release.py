@@ -103,6 +103,8 @@ def _held_length(scene: Scene, length: Parameter, *, is_placed: bool, is_pure: b
     name, rods = length.name, _rods(scene, length.name)
     shift = Shift(scene, length, rods[0]) if len(rods) == 1 else None
     is_tied = _is_length_of_constraint(scene, name) or (shift is not None and _is_in_equation(scene, name))
+    if is_pure and not (is_placed or is_tied) and _gap_with(scene, name):
+        return Held(name, "lengths" if _is_shared(scene, name) else "length")
     if is_pure and (is_placed or is_tied) and (shift is None or _is_free_of(shift, is_placed=is_placed)):
         return Held(name, "lengths" if _is_shared(scene, name) else "length")
     if _load_of_coordinates(scene, name) or _gap_with(scene, name):
@@ -147,7 +149,7 @@ def _load_of_coordinates(scene: Scene, name: str) -> str | None:
 
 
 def _gap_with(scene: Scene, name: str) -> str | None:
-    """A contact whose gap has this length in it: whether it goes with a place is not said."""
+    """A contact whose gap has this length in it, as that of a string which may be slack."""
     return next((each.name for each in scene.events if each.bounces and name in each.value.names), None)
 
 
