@@ -76,7 +76,7 @@ OWN_REASONS: Mapping[Missing, str] = MappingProxyType(
 # Among which generators symmetries are sought: those affine in coordinates and time; motions of space and rigid bodies.
 GeneratorFamily = Literal["affine", "motions-of-space"]
 # What a scene holds fixed: a length, one of several rods, a rod with mass, places, an angle, a guided coordinate.
-HoldKind = Literal["length", "lengths", "rod", "place", "angle", "guide"]
+HoldKind = Literal["length", "scaled", "lengths", "rod", "place", "angle", "guide"]
 # What happens where a motion goes on.
 TransitionKind = Literal["impact", "rest", "release", "stick", "slip", "turn", "slide", "leave"]
 # Whether a load has a potential, by the curl of its generalized forces.

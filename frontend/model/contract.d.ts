@@ -6686,7 +6686,7 @@ export interface components {
              * Kind
              * @enum {string}
              */
-            kind: "length" | "lengths" | "rod" | "place" | "angle" | "guide";
+            kind: "length" | "scaled" | "lengths" | "rod" | "place" | "angle" | "guide";
             /** @description Z, in the direction in which it grows: negative where a rod pulls */
             reaction: components["schemas"]["Formula"];
             /**
@@ -6932,7 +6932,7 @@ export interface components {
              * Kind
              * @enum {string}
              */
-            kind: "length" | "lengths" | "rod" | "place" | "angle" | "guide";
+            kind: "length" | "scaled" | "lengths" | "rod" | "place" | "angle" | "guide";
             /** Latex */
             latex: string;
             /**

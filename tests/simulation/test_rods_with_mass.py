@@ -12,6 +12,7 @@ import sympy as sp
 from tests.simulation.constrained import G
 from tests.simulation.planar import Body, Floats, Pin, newton_euler
 
+from deltaq.derivation.engine import derive
 from deltaq.derivation.system import System
 from deltaq.errors import UnknownNameError
 from deltaq.language.sympy_algebra import to_sympy
@@ -21,6 +22,7 @@ from deltaq.mechanics.release import held
 from deltaq.mechanics.scene import Scene
 from deltaq.mechanics.writing import write_scene
 from deltaq.model.reactions import reactions
+from deltaq.narration.derive import derive_request
 from deltaq.simulation.service import run
 
 Values = Mapping[str, float]
@@ -274,10 +276,6 @@ def test_a_rod_on_a_blade_is_not_taken_for_one_that_its_near_end_alone_holds() -
 NOT_A_ROD = [
     pytest.param({"drawing": {"elements": []}}, id="not drawn"),
     pytest.param(
-        {"drawing": {"elements": [{"kind": "rod", "from": "tip", "to": "pivot", "label": "l"}]}},
-        id="the wrong way round",
-    ),
-    pytest.param(
         {
             "parameters": [*PARAMETERS, {"name": "w", "unit": "m", "value": 3.0}],
             "bodies": [
@@ -304,7 +302,9 @@ def test_the_limit_of_a_continuum_that_is_no_drawn_rod_is_refused(changes: dict[
     with pytest.raises(UnknownNameError) as caught:
         reactions(rod_scene(**changes), ("l",))
     (problem,) = caught.value.problems
-    assert (problem.code, problem.pointer) == ("cannot-release-limit", "/release/0")
+    is_drawn = "drawing" not in changes
+    code = "cannot-release-drawn-limit" if is_drawn else "cannot-release-limit"
+    assert (problem.code, problem.pointer) == (code, "/release/0")
     told = dict(problem.parameters)
     assert (told["name"], told["body"]) == ("l", "rod")
 
@@ -338,3 +338,65 @@ def test_a_displacement_is_called_what_nothing_else_is() -> None:
     assert found.shift is not None
     assert found.shift.displacement == "u_1"
     assert reaction(taken, "l", {**PLANE, "u": 3.0}, {"phi": 5.0}, ()) == pytest.approx(PIVOT, rel=1e-12)
+
+
+def test_a_rod_is_held_at_the_end_that_does_not_move_however_it_is_drawn() -> None:
+    turned = rod_scene(drawing={"elements": [{"kind": "rod", "from": "tip", "to": "pivot", "label": "l"}]})
+    (found,) = held(turned)
+    assert found.kind == "rod"
+    assert found.shift is not None
+    assert found.shift.rod is not None
+    assert (found.shift.rod.start, found.shift.rod.end) == ("pivot", "tip")
+    assert reaction(turned, "l", PLANE, {"phi": 5.0}, ()) == pytest.approx(PIVOT, rel=1e-12)
+
+
+def material(*position: str, upper: str) -> dict[str, Any]:
+    """A rod whose particles are told by a coordinate of the material that ends there."""
+    limits = {"name": "s", "from": "0", "to": upper}
+    return {"kind": "continuum", "name": "rod", "material": [limits], "density": "m", "position": list(position)}
+
+
+# The pivot force m (l φ̇²/2 + g cos φ) where places move by as much as l; its share where they move by another amount.
+MATERIALS = [
+    pytest.param(material("s*l*sin(phi)", "s*l*cos(phi)", upper="1"), "place", 2 / 3, 0.5, id="by a part of l"),
+    pytest.param(
+        material("(l/2 + s - 1/2)*sin(phi)", "(l/2 + s - 1/2)*cos(phi)", upper="1"), "rod", 1, 1, id="beside l/2"
+    ),
+]
+
+
+@pytest.mark.parametrize(("body", "kind", "centripetal", "weight"), MATERIALS)
+def test_material_coordinates_stand_beside_the_length_in_places(
+    body: dict[str, Any], kind: str, centripetal: float, weight: float
+) -> None:
+    """Z δl = −∫ (l s φ̇² + g cos φ) δr dm: each particle is displaced by s δl, or all of them by u."""
+    scene = rod_scene(bodies=[body])
+    assert held_in(scene) == {"l": kind}
+    assert derive(scene)[1].chapters
+    expected = -1.3 * (centripetal * 0.4 * 1.9**2 + weight * G * np.cos(0.7))
+    assert reaction(scene, "l", PLANE, {"phi": 5.0}, ()) == pytest.approx(expected, rel=1e-12)
+
+
+# A body whose centre is half of l away: Z by δl is half of what the pivot exerts, and is told as no rod's.
+SCALED = [
+    pytest.param({"inertia": "J"}, "scaled", id="the inertia is a number of its own"),
+    pytest.param({"inertia": "m*l^2/12"}, "place", id="the inertia has the length as well"),
+]
+
+
+@pytest.mark.parametrize(("body", "kind"), SCALED)
+def test_a_place_that_moves_by_a_part_of_the_length_is_held_by_no_rod(body: dict[str, str], kind: str) -> None:
+    rigid = {"kind": "rigid", "name": "rod", "mass": "m", "angle": "phi", **body}
+    place = {"position": ["l/2*sin(phi)", "l/2*cos(phi)"]}
+    values = [*PARAMETERS, {"name": "J", "unit": "kg*m^2", "value": 0.1}]
+    scene = rod_scene(bodies=[{**rigid, **place}], parameters=values, drawing={"elements": []})
+    assert held_in(scene) == {"l": kind}
+    assert reaction(scene, "l", {**PLANE, "J": 0.1}, {"phi": 5.0}, ()) == pytest.approx(PIVOT / 2, rel=1e-12)
+    asked = {"scene": write_scene(scene), "release": ["l"]}
+    for language, word in (("en", "generalized reaction"), ("de", "verallgemeinerte Reaktion")):
+        found: Any = derive_request({**asked, "lang": language})
+        assert found["result"]["reactions"][0]["force"] is None
+        (step,) = (each for chapter in found["chapters"] for each in chapter["steps"] if each["id"] == "reaction:l")
+        assert word in step["text"]
+    told: Any = run({**asked, "t_end": 0.5, "samples": 3})
+    assert told["reactions"]["l"]["of_rod"] is False

@@ -37,8 +37,9 @@ OF_COORDINATES = (Potential, VelocityPotential, Dissipation, DryFriction)  # loa
 class Held:
     """Something held fixed, and what it is.
 
-    A length by its unit, `lengths` if several rods are drawn with it, an angle, or a guide; or what is held by its
-    `shift`: a rod with mass at its near end, or the place of bodies.
+    A length by its unit, `lengths` if several rods are drawn with it, `scaled` if places move by another amount than it
+    grows by, an angle, or a guide; or what is held by its `shift`: a rod with mass at its near end, or the place of
+    bodies.
     """
 
     name: str
@@ -101,17 +102,24 @@ def _held(scene: Scene, parameter: Parameter) -> Held | None:
 
 def _held_length(scene: Scene, length: Parameter, *, is_placed: bool, is_pure: bool) -> Held | None:
     name, rods = length.name, _rods(scene, length.name)
-    shift = Shift(scene, length, rods[0]) if len(rods) == 1 else None
+    shift = _shift(scene, length, rods[0]) if len(rods) == 1 else None
     is_tied = _is_length_of_constraint(scene, name) or (shift is not None and _is_in_equation(scene, name))
-    if is_pure and not (is_placed or is_tied) and _gap_with(scene, name):
+    if is_pure and not (is_placed or is_tied) and rods and _gap_with(scene, name):
         return Held(name, "lengths" if _is_shared(scene, name) else "length")
     if is_pure and (is_placed or is_tied) and (shift is None or _is_free_of(shift, is_placed=is_placed)):
-        return Held(name, "lengths" if _is_shared(scene, name) else "length")
+        alone: HoldKind = "length" if Shift(scene, length, None).is_by_length else "scaled"
+        return Held(name, "lengths" if _is_shared(scene, name) else alone)
     if _load_of_coordinates(scene, name) or _gap_with(scene, name):
         return None
     if shift is not None and shift.is_along_rod:
         return Held(name, "rod", shift)
     return Held(name, "place", Shift(scene, length, None)) if is_placed or is_tied else None
+
+
+def _shift(scene: Scene, length: Parameter, rod: Rod) -> Shift:
+    """The rod moved along itself from the end at which it is held: the first one, unless only the other can be."""
+    drawn, turned = (Shift(scene, length, each) for each in (rod, Rod(rod.end, rod.start)))
+    return turned if turned.is_along_rod and not drawn.is_along_rod else drawn
 
 
 def _is_free_of(shift: Shift, *, is_placed: bool) -> bool:
@@ -166,7 +174,9 @@ def _refusal(scene: Scene, name: str) -> tuple[str, dict[str, str]]:
     gap = _gap_with(scene, name)
     if gap and (bounded or next(placed, None)):
         return "cannot-release-of-contact", {"event": gap}
-    return ("cannot-release-limit", {"body": bounded}) if bounded else ("cannot-release", {})
+    if not bounded:
+        return "cannot-release", {}
+    return "cannot-release-drawn-limit" if _rods(scene, name) else "cannot-release-limit", {"body": bounded}
 
 
 def _kind(dimension: Dimension | None) -> HoldKind | None:

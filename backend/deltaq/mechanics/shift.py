@@ -122,7 +122,7 @@ class Shift:
         along = along_rod(material, self.name) if self.rod else None
         if along is not None:
             return tuple(self._put(part, along.name, ONE) for part in position)
-        part = self.part(position) if self.rod else ONE
+        part = self.part(position, material) if self.rod else ONE
         return tuple(self._put(each, self.name, 1 / part) for each in position) if part else position
 
     def _put(self, expression: Expression, name: str, factor: Fraction) -> Expression:
@@ -133,14 +133,15 @@ class Shift:
         tree: Node = fold(expression.tree, _Put(name, Sum((Name(name), moved))))
         return expression if tree == expression.tree else Expression(expression.text, tree)
 
-    def part(self, position: Vector) -> Fraction | None:
+    def part(self, position: Vector, material: tuple[Material, ...]) -> Fraction | None:
         """|∂r/∂l|, if that is the same everywhere and for every l: at which part of its length a rod has a place.
 
-        0 where the place does not depend on it.
+        0 where the place does not depend on it; of a continuum the same for all of its particles.
         """
         if self.name not in names_in(position):
             return Fraction(0)
-        sizes = [math.hypot(*slope) for point in self.places for slope in self._slopes(position, point)]
+        particles = (each for point in self.places for each in _particles(material, point))
+        sizes = [math.hypot(*slope) for point in particles for slope in self._slopes(position, point)]
         part = Fraction(sizes[0]).limit_denominator(LARGEST) if sizes and math.isfinite(sizes[0]) else Fraction(0)
         return part if part and all(abs(size - part) <= SAME for size in sizes) else None
 
@@ -161,12 +162,17 @@ class Shift:
         return bool(names_in(position) & {"t", *(coordinate.name for coordinate in self.scene.coordinates)})
 
     @property
+    def is_by_length(self) -> bool:
+        """Whether every body moves by as much as the length grows by, or not at all."""
+        return all(self.part(body.position, body.material) in (0, 1) for body in self.scene.bodies)
+
+    @property
     def is_whole(self) -> bool:
         """Whether everything moved hangs on the far end of the rod, and no point of the frame is told by its length.
 
         Then letting go the length itself moves nothing else.
         """
-        bodies = all(self.part(body.position) in (0, 1) and not body.material for body in self.scene.bodies)
+        bodies = all(not body.material and self.part(body.position, ()) in (0, 1) for body in self.scene.bodies)
         frame = (point.position for point in self.scene.points if not self._moves(point.position))
         return bodies and not any(self.name in names_in(position) for position in frame)
 
@@ -188,7 +194,9 @@ class Shift:
 
     def _fits_all(self, rod: Rod) -> bool:
         bodies = [body for body in self.scene.bodies if self.name in _of_place(body)]
-        known = bodies and all(along_rod(body.material, self.name) or self.part(body.position) for body in bodies)
+        known = bodies and all(
+            along_rod(body.material, self.name) or self.part(body.position, body.material) for body in bodies
+        )
         fits = known and all(self._fits(rod, body, point) for body in bodies for point in self.places)
         return bool(fits) and self.lengthens
 
@@ -204,8 +212,9 @@ class Shift:
         direction = _direction(start, end)
         along = along_rod(body.material, self.name)
         if along is None:
-            slope = tuple(gradient(part.tree, point, [self.name])[0] for part in body.position)
-            return _is_close(_direction((0.0,) * len(slope), slope), direction)
+            particles = _particles(body.material, point)
+            slopes = (tuple(gradient(part.tree, at, [self.name])[0] for part in body.position) for at in particles)
+            return all(_is_close(_direction((0.0,) * len(slope), slope), direction) for slope in slopes)
         first, last = (evaluate(limit.tree, point) for limit in (along.lower, along.upper))
         found = [_at(body.position, {**point, along.name: first + part * (last - first)}) for part in ALONG]
         there = [tuple(a + part * (b - a) for a, b in zip(start, end, strict=True)) for part in ALONG]
@@ -249,6 +258,17 @@ def _of_place(body: Body) -> frozenset[str]:
     """The names in a body's place and in the limits of its material."""
     limits = frozenset[str]().union(*(each.lower.names | each.upper.names for each in body.material))
     return names_in(body.position) | limits
+
+
+def _particles(material: tuple[Material, ...], point: Values) -> Iterator[Values]:
+    """Some particles of a continuum at a configuration; of a body that is none the configuration itself."""
+    if not material:
+        yield point
+        return
+    first, *others = material
+    lower, upper = (evaluate(limit.tree, point) for limit in (first.lower, first.upper))
+    for part in ALONG:
+        yield from _particles(tuple(others), {**point, first.name: lower + part * (upper - lower)})
 
 
 def _at(position: Vector, point: Values) -> tuple[float, ...]:
