@@ -45,6 +45,31 @@ def contacts(t, q, v):  # gaps, and the coefficients of restitution
     return np.array({contacts}, dtype=float).reshape(-1, 2).T
 
 
+SIZES = np.zeros((3, len(VALUES)))  # of each coordinate the largest place, rate and acceleration so far
+
+
+def measure(t, q, v):  # accelerations by all that acts, whether or not it adds up to zero
+    acting = abs(forcing(t, q, v)) + abs(friction(t, q, v)).max(axis=0) @ abs(rows(t, q, v)[0][:FRICTIONS])
+    pulls = abs(np.linalg.inv(mass_matrix(t, q))) @ acting
+    SIZES[:] = np.fmax(SIZES, [abs(q), abs(v), pulls])
+
+
+def measure_start(t, q, v):  # what is at zero or at rest counts by what it may become
+    SIZES[:] = 0.0
+    measure(t, q, v)
+    places, rates, pulls = SIZES
+    places = np.maximum(places, rates * T_END)
+    places = np.where(places > 0.0, places, pulls * T_END**2)
+    SIZES[:] = places, np.maximum(rates, np.sqrt(pulls * places)), pulls
+
+
+def sizes(t, q, v):  # of w, its integral, its derivative and reactions: what is tiny beside them is rounding
+    a = rows(t, q, v)[0]
+    places, rates, pulls = SIZES @ abs(a).T
+    moved = np.sum(a.T * np.linalg.solve(mass_matrix(t, q), a.T), axis=0)  # d/dt w by a reaction of 1
+    return places, rates, pulls, pulls / np.where(moved > 0.0, moved, 1.0)
+
+
 def accelerations_and_reactions(t, q, v, slips, held):
     a, _, gamma = rows(t, q, v)
     slipping = np.where(held[:FRICTIONS], 0.0, slips * friction(t, q, v)[0])
@@ -71,27 +96,28 @@ def pushed(t, q, v, row, change):  # behind an impulse that changes w by so much
 
 
 def behind_impacts(t, q, v, slips, held):  # one after the other; with several at once each may be the first
-    closing = (contacts(t, q, v)[0] < 1e-11) & (rows(t, q, v)[1][FRICTIONS:] < -1e-12)
+    places, rates, _, _ = sizes(t, q, v)
+    closed = contacts(t, q, v)[0] <= 1e-11 * places[FRICTIONS:]
+    closing = closed & (rows(t, q, v)[1][FRICTIONS:] < -1e-12 * rates[FRICTIONS:])
     ends = [in_turn(t, q, v, slips, held, FRICTIONS + first) for first in np.flatnonzero(closing)]
-    if any(abs(end - ends[0]).max() > 1e-9 for end in ends):
+    if any((abs(end - ends[0]) > 1e-9 * SIZES[1]).any() for end in ends):
         raise SystemExit("Several contacts at once: how it goes on depends on which of them pushes first")
     return ends[0] if ends else v
 
 
 def in_turn(t, q, v, slips, held, first):  # behind the impact of one, then of those that close, the fastest first
-    free = np.zeros_like(held)
+    free, (places, rates, _, _) = np.zeros_like(held), sizes(t, q, v)
     for _ in range(1000):
         gaps, restitutions = contacts(t, q, v)
         a, w, gamma = rows(t, q, v)
-        closing = np.where(gaps < 1e-11, w[FRICTIONS:], 0.0)
+        closing = np.where(gaps <= 1e-11 * places[FRICTIONS:], w[FRICTIONS:], 0.0)
         contact = int(np.argmin(closing)) if first is None else first - FRICTIONS
-        first = None
-        if closing[contact] > -1e-12:
+        first, row = None, FRICTIONS + contact
+        if closing[contact] >= -1e-12 * rates[row]:
             return v
-        row = FRICTIONS + contact
         rebound = restitutions[contact] * closing[contact]
         pull = -(a[row] @ accelerations_and_reactions(t, q, v, slips, free)[0] + gamma[row])
-        if pull > 0.0 and rebound**2 < 2e-12 * pull:  # too low to be told from rest
+        if pull > 0.0 and rebound**2 < 2e-12 * places[row] * pull:  # too low to be told from rest
             rebound = 0.0
         v = pushed(t, q, v, row, -closing[contact] - rebound)
     raise SystemExit("Several contacts at once, whose impacts do not end")
@@ -115,10 +141,11 @@ def left(t, q, v, slips, held, row):  # until a row that is held lets go, or how
 
 def first_wrong(t, q, v, slips, held, at_zero):  # the first row to be held or let go instead
     h, accelerations = 1e-7 * T_END, accelerations_and_reactions(t, q, v, slips, held)[0]
+    _, _, pulls, forces = sizes(t, q, v)
     for row in at_zero:
-        value = left(t, q, v, slips, held, row)
-        if abs(value) < 1e-9:  # a moment later it is clear
-            value = left(t + h, q + h * v, v + h * accelerations, slips, held, row) + 1e-9
+        value, unclear = left(t, q, v, slips, held, row), 1e-9 * (forces if held[row] else pulls)[row]
+        if abs(value) < unclear:  # a moment later it is clear
+            value = left(t + h, q + h * v, v + h * accelerations, slips, held, row) + unclear
         if value < 0.0:
             return row
     return None
@@ -134,10 +161,11 @@ def settled(t, q, v, slips, held, event):  # how it goes on behind an event, Non
         v = pushed(t, q, v, event, -rows(t, q, v)[1][event])
     if len(held) > FRICTIONS and (event is None or event >= FRICTIONS and loose is None):
         v = behind_impacts(t, q, v, slips, held)
-    w = rows(t, q, v)[1]
-    still = abs(w) < 1e-11
-    slips = np.where(abs(w[:FRICTIONS]) > 1e-13, np.sign(w[:FRICTIONS]), slips)
-    held = still & np.concatenate([np.ones(FRICTIONS, dtype=bool), contacts(t, q, v)[0] < 1e-11])
+    w, (places, rates, _, _) = rows(t, q, v)[1], sizes(t, q, v)
+    moving = abs(w[:FRICTIONS]) > 1e-13 * rates[:FRICTIONS]
+    slips = np.where(moving, np.sign(w[:FRICTIONS]), slips)
+    touching = contacts(t, q, v)[0] <= 1e-11 * places[FRICTIONS:]
+    held = (abs(w) <= 1e-11 * rates) & np.concatenate([np.ones(FRICTIONS, dtype=bool), touching])
     at_zero = np.flatnonzero(held)
     if loose is not None:
         held[loose] = False
@@ -160,9 +188,13 @@ def solve(t_end=T_END, samples=SAMPLES):
     times = np.linspace(0.0, t_end, samples)
     t, q, v, states = 0.0, np.array(VALUES), np.array(RATES), []
     slips, held = np.ones(FRICTIONS), np.zeros(len(rows(t, q, v)[1]), dtype=bool)
+    measure_start(t, q, v)
     v, slips, held = settled(t, q, v, slips, held, None)
     for _ in range(10_000):
-        room = np.maximum(1e-13 - watched(t, q, v, slips, held), 0.0)  # what has just happened does not happen again
+        places, rates, _, forces = sizes(t, q, v)
+        unclear = 1e-13 * np.where(held, forces, np.where(np.arange(len(held)) < FRICTIONS, rates, places))
+        room = np.maximum(unclear - watched(t, q, v, slips, held), 0.0)  # what has just happened does not happen again
+        small = np.where(SIZES[:2] > 0.0, SIZES[:2], SIZES.max() or 1.0).ravel()
 
         def right_hand_side(t, state):
             q, v = np.split(state, 2)
@@ -182,21 +214,25 @@ def solve(t_end=T_END, samples=SAMPLES):
             method="DOP853",
             t_eval=times[len(states) :],
             rtol=1e-11,
-            atol=1e-12,
+            atol=1e-12 * small,
             max_step=t_end / 500,  # what falls and rises again within a step is not seen
             events=[{ending}*map(falling, range(len(held)))],
         )
         if not found.success:
             raise SystemExit(found.message)
         shown = np.transpose(found.y)
-        if any((friction(t, *np.split(state, 2)) < -1e-9).any() for t, state in zip(found.t, shown)):
-            raise SystemExit("A friction becomes negative: it would drive what slips")
+        for t, state in zip(found.t, shown):
+            q, v = np.split(state, 2)
+            measure(t, q, v)
+            if (friction(t, q, v) < -1e-9 * sizes(t, q, v)[3][:FRICTIONS]).any():
+                raise SystemExit("A friction becomes negative: it would drive what slips")
         states.extend(shown)
         MODES.extend([(slips, held)] * len(shown))
         event = next((k for k, instants in enumerate(found.t_events) if len(instants)), None)
         if found.status == 0 or event < {endings}:
             break
         t, (q, v) = found.t_events[event][0], np.split(found.y_events[event][0], 2)
+        measure(t, q, v)
         v, slips, held = settled(t, q, v, slips, held, event - {endings})
     else:
         raise SystemExit("There are 10,000 events, and more to come")
@@ -208,14 +244,38 @@ def solve(t_end=T_END, samples=SAMPLES):
 
 
 HELD = """\
-def reaction(t, q, v, mode):
+def at_rest(t, q, v, slips, held):  # rows that are held, or stay closed or do not slip as others see to it
+    places, rates, pulls, _ = sizes(t, q, v)
+    closed = contacts(t, q, v)[0] <= 1e-11 * places[FRICTIONS:]
+    still = np.concatenate([friction(t, q, v)[1] > 0.0, closed]) & (abs(rows(t, q, v)[1]) <= 1e-9 * rates)
+    h, accelerations = 1e-7 * T_END, accelerations_and_reactions(t, q, v, slips, held)[0]
+    for then in ((t, q, v), (t + h, q + h * v, v + h * accelerations)):
+        a, _, gamma = rows(*then)
+        still &= abs(a @ accelerations_and_reactions(*then, slips, held)[0] + gamma) <= 1e-9 * pulls
+    return held | still
+
+
+def indeterminate(t, q, v, slips, held, shares):  # whether forces that move nothing together change each reaction
+    rests = at_rest(t, q, v, slips, held)
+    a = np.linalg.solve(np.linalg.cholesky(mass_matrix(t, q)), rows(t, q, v)[0][rests].T)
+    lengths = np.linalg.norm(a, axis=0)
+    lengths[lengths == 0.0] = 1.0
+    _, values, combinations = np.linalg.svd(a / lengths)
+    without_effect = combinations[np.count_nonzero(values > 1e-9) :].T
+    changes = shares[:, rests] / lengths
+    changed = abs(changes @ without_effect).max(axis=1, initial=0.0)
+    return changed > 1e-6 * abs(changes).max(axis=1, initial=0.0)
+
+
+def reaction(t, q, v, mode):  # not a number where nothing tells how what rubs and touches shares a load
     {unpack_values}
     {unpack_rates}
     slips, held = mode
     {unpack_accelerations}, forces = accelerations_and_reactions(t, q, v, slips, held)
     slipping = np.concatenate([-slips * friction(t, q, v)[0], np.zeros(len(held) - FRICTIONS)])
     shares = np.array({shares}, dtype=float).reshape(len(HELD), -1)  # of what rubs and touches, by what is held
-    return np.array({reactions}, dtype=float) - shares @ np.where(held, forces, slipping)
+    found = np.array({reactions}, dtype=float) - shares @ np.where(held, forces, slipping)
+    return np.where(indeterminate(t, q, v, slips, held, shares), np.nan, found)
 
 
 def reactions(times, q, v):

@@ -18,6 +18,7 @@ from ..language.functions import FUNCTIONS
 # What the program's own code calls something where the scene's names stand, too.
 IMPORTED = {"np", "pi", "pyplot", "solve_ivp"}
 LOCAL = {"biases", "q", "rates", "row", "state", "t", "times", "v"}
+LOCAL |= {"forces", "found", "held", "mode", "shares", "slipping", "slips"}
 DEFINED = re.compile(r"^(?:\{.*\})?(?:def )?(\w+)(?:\(| = )", re.MULTILINE)
 RECIPROCALS = {sp.cot: sp.tan, sp.sec: sp.cos, sp.csc: sp.sin}
 
