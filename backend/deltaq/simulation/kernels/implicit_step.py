@@ -2,18 +2,16 @@
 
 from __future__ import annotations
 
-import numpy as np
-
 from .compiler import inline
 from .implicit_error import error_of, prepare_error
 from .implicit_workspace import ImplicitWorkspace, compensated_sum
 from .kicked import begin_kicked, invert
 from .kicks import prepare_kicks
-from .motion import FINE, NEWTON_FAILED, NOT_FINITE, TOO_LARGE, Motion, finish_constrained, rhs
+from .motion import FINE, NEWTON_FAILED, NOT_FINITE, Motion, finish_constrained, rhs
 from .newton import GO_ON, assemble, newton, newton_in_symbols
 from .phase import Phase, linearize, momenta, velocity
 from .stages import ImplicitWeights, Start, midpoint
-from .step import LARGEST_VALUE
+from .step import judge_size
 from .system import block_at
 
 # Of the local tolerance: what may be left of the stages' equations, in a velocity. A step's error estimate does not see
@@ -36,8 +34,9 @@ def finish(
         ends.new[d] = compensated_sum(ends.old[d], h * change, d, workspace)
         workspace.new_p[d] = compensated_sum(workspace.p[d], h * impulse, n + d, workspace)
         ends.new[n + d] = stages.v[count - 1, d]
-        if not abs(ends.new[d]) + abs(workspace.new_p[d]) <= LARGEST_VALUE:
-            return TOO_LARGE if abs(ends.new[d]) + abs(workspace.new_p[d]) < np.inf else NOT_FINITE
+        outcome = judge_size(ends.new[d], d, ends.new.size)
+        if outcome != FINE:
+            return outcome
     if motion.is_powered:
         work = 0.0
         for i in range(count):
@@ -49,7 +48,10 @@ def finish(
             workspace.powers[i] = workspace.derivative[2 * n]
             work += weights.b[i] * workspace.powers[i]
         ends.new[2 * n] = compensated_sum(ends.old[2 * n], h * work, 2 * n, workspace)
-    return velocity(phase, t + h, ends.new[:n], workspace.new_p, ends.new[n : 2 * n], stages.spare[0])
+    outcome = velocity(phase, t + h, ends.new[:n], workspace.new_p, ends.new[n : 2 * n], stages.spare[0])
+    for d in range(n, ends.new.size if outcome == FINE else n):
+        outcome = outcome or judge_size(ends.new[d], d, ends.new.size)
+    return outcome
 
 
 @inline

@@ -10,7 +10,7 @@ from .compiler import inline, runtime_int
 from .motion import FINE, NOT_FINITE, TOO_LARGE, Floats, Motion, rhs, rhs_at_inputs
 from .pointer import prevent_vectorization
 
-LARGEST_VALUE = 1e15  # beyond, nothing in a mechanical scene has a meaning
+LARGEST_VALUE = 1e15  # of coordinates and rates: beyond, nothing in a mechanical scene has a meaning
 
 
 class Weights(NamedTuple):
@@ -85,6 +85,19 @@ def stages(motion: Motion, a: Floats, c: Floats, first: int, t: float, h: float,
 
 
 @inline
+def judge_size(value: float, d: int, width: int) -> int:
+    """Whether component d of a state (q, q̇) or (q, q̇, ∫P dt) is one to go on from: FINE, TOO_LARGE or NOT_FINITE.
+
+    Work is neither a coordinate nor a rate; it only has to be a number.
+    """
+    is_work = d == width - 1 and width % 2 == 1
+    size = abs(value)
+    if size <= LARGEST_VALUE or (is_work and size < np.inf):
+        return FINE
+    return NOT_FINITE if np.isnan(size) else TOO_LARGE
+
+
+@inline
 def advance(b: Floats, h: float, workspace: Workspace) -> int:
     """The new state y + h Σ bⱼ kⱼ by Kahan's summation; returns the outcome. `b` has shape (s,).
 
@@ -97,8 +110,9 @@ def advance(b: Floats, h: float, workspace: Workspace) -> int:
         change = h * (first + change) + workspace.compensation[d]
         workspace.new[d] = workspace.old[d] + change
         workspace.new_compensation[d] = change - (workspace.new[d] - workspace.old[d])
-        if not abs(workspace.new[d]) <= LARGEST_VALUE:
-            return NOT_FINITE if np.isnan(workspace.new[d]) else TOO_LARGE
+        outcome = judge_size(workspace.new[d], d, workspace.old.size)
+        if outcome != FINE:
+            return outcome
     return FINE
 
 

@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from math import log, log2
+from sys import float_info
 
 from ..kernels.step import LARGEST_VALUE
 from ..kernels.taylor import (
@@ -36,6 +37,8 @@ from ..kernels.taylor import (
 from .code import Code, MachineCode, compiled, shared
 from .stepping import SAFETY as SAFETY_OF_STEPS
 from .stepping import logarithm, power_of_two
+
+LARGEST_NUMBER = float_info.max
 
 
 def single() -> MachineCode:
@@ -124,7 +127,7 @@ def _advance() -> Code:
     code = Code(LANES)
     loop, one = _Vectors(code, {"fits": ("i1", "true")}), Code(1, code.lines, code.declared, prefix="o")
     code.label("entry")
-    order, components, width = (loop.told(place) for place in (ORDER, COMPONENTS, WIDTH))
+    order, components, width, judged = (loop.told(place) for place in (ORDER, COMPONENTS, WIDTH, JUDGED))
     theta = code.spread(one.load("%work", THETA))
     last, back = code.new(f"mul i64 {order}, {components}"), code.new(f"sub i64 0, {components}")
     loop.begin()
@@ -151,7 +154,8 @@ def _advance() -> Code:
     lost = code.add(code.subtract(old, code.subtract(new, added)), code.subtract(change, added))
     loop.store(lost, NEW_REST)
     loop.store(code.multiply(theta, code.multiply_add(theta, "%s.n", "%c.n")), SLOPES)
-    is_small = code.new(f"fcmp ole {code.kind} {code.size(new)}, {code.number(LARGEST_VALUE)}")
+    bound = code.select(loop.is_behind(judged), code.number(LARGEST_NUMBER), code.number(LARGEST_VALUE))
+    is_small = code.new(f"fcmp ole {code.kind} {code.size(new)}, {bound}")  # ∫P dt only has to be a number
     fit = code.new(f"or <{LANES} x i1> {is_small}, {loop.is_behind(width)}")
     all_fit = code.new(f"icmp eq i{LANES} {code.new(f'bitcast <{LANES} x i1> {fit} to i{LANES}')}, -1")
     loop.end({"fits": code.new(f"and i1 %fits, {all_fit}")})
