@@ -36,8 +36,8 @@ def require_holding(current: ModeState) -> None:
     count = len(modes.frictions)
     if not count:
         return
-    facts, size = current.facts, current.size_of_rates
-    still = [k for k in range(count) if current.mode.flags[k] or abs(facts.w[k]) <= STILL * size]
+    facts = current.facts
+    still = [k for k in range(count) if current.mode.flags[k] or abs(facts.w[k]) <= STILL * current.rate_along(k)]
     if not still:
         return
     loose = current.with_flags((0.0,) * modes.rows)

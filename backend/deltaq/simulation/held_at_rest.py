@@ -38,7 +38,7 @@ def _held(modes: Modes, mesh: Mesh) -> NDArray[np.bool_]:
     """Whether the rows that hold where a stretch begins have each coordinate's axis in their span: shape (n,)."""
     current = in_mode_of(mesh.problem, modes, mesh.start)
     held = [current.facts.a[row] for row, flag in enumerate(current.mode.flags) if flag]
-    rows = [unit_row(row) for row in (*current.kept[0], *held)]
+    rows = [unit_row(current, row) for row in (*current.kept[0], *held)]
     if not rows:
         return np.zeros(len(current.q), dtype=bool)
     _, sizes, directions = np.linalg.svd(np.array(rows))

@@ -102,8 +102,9 @@ def _in_turn(free: ModeState, touching: Sequence[int], order: Sequence[int]) -> 
 
 def _closing(free: ModeState, touching: Sequence[int]) -> list[int]:
     """Those of the contacts that close, the fastest first."""
-    rates = {j: free.facts.w[free.modes.bounded + j] / free.scale(j) for j in touching}
-    return sorted((j for j in touching if rates[j] < -STILL * free.size_of_rates), key=rates.__getitem__)
+    first = free.modes.bounded
+    rates = {j: free.facts.w[first + j] / free.rate_along(first + j) for j in touching}
+    return sorted((j for j in touching if rates[j] < -STILL), key=rates.__getitem__)
 
 
 def _require_agreement(free: ModeState, touching: Sequence[int], v: Floats) -> None:
@@ -113,7 +114,7 @@ def _require_agreement(free: ModeState, touching: Sequence[int], v: Floats) -> N
             other = _in_turn(free, touching, order).state.v
         except UnsettledError:
             raise UndeterminedError from None
-        if float(np.abs(other - v).max()) > AGREE * free.size_of_rates:
+        if (np.abs(other - v) > AGREE * free.sizes_of_rates).any():
             raise UndeterminedError
 
 
@@ -135,7 +136,7 @@ def _caught(current: ModeState, contacts: Sequence[int]) -> Impacts | None:
     rows = [current.modes.bounded + j for j in contacts]
     moved: Floats = np.array([current.moved_by(current.facts.a[row]) for row in rows])
     flexibility, rates = current.facts.a[rows] @ moved.T, np.array([current.facts.w[row] for row in rows])
-    least = np.array([STILL * current.scale(j) * current.size_of_rates for j in contacts])
+    least = np.array([STILL * current.rate_along(row) for row in rows])
     closing = np.zeros(len(rows), dtype=bool)
     for _ in range(MOST_IMPACTS):
         impulses = np.zeros(len(rows))
@@ -183,7 +184,7 @@ def _is_low(current: ModeState, contact: int, rate: float, lost: float) -> bool:
     pull = -float(facts.a[row] @ current.accelerations + facts.bias[row])
     if not pull > 0.0:
         return False
-    height, size = rate * rate / (2.0 * pull) / current.scale(contact), current.size_of_places
-    rounding = TICKS * math.ulp(current.time) * abs(float(facts.w[row] - facts.a[row] @ current.v))
-    unknown = rounding / current.scale(contact)  # where the contact is that moves with the time
+    height, size = rate * rate / (2.0 * pull), current.place_along(row)
+    # where the contact is that moves with the time
+    unknown = TICKS * math.ulp(current.time) * abs(float(facts.w[row] - facts.a[row] @ current.v))
     return height <= LOWEST * size + unknown and height * lost <= HEIGHT * size + unknown

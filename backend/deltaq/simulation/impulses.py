@@ -43,9 +43,9 @@ def _impulses(problem: Problem, modes: Modes, impact: Transition) -> Mapping[str
     pushed = [rows[name] for name in contacts]
     touching = [*pushed, *(j for j in start.touching if j not in pushed)]  # which might have pushed instead
     current = start.with_flags((0.0,) * modes.bounded + tuple(float(j in touching) for j in range(len(modes.contacts))))
-    along = np.array([*current.kept[0], *(current.facts.a[modes.bounded + j] for j in touching)])
+    along = current.in_one_unit(np.array([*current.kept[0], *(current.facts.a[modes.bounded + j] for j in touching)]))
     count, jump = len(current.kept[0]) + len(pushed), impact.after[n : 2 * n] - v
-    momenta, found = current.mass @ jump, np.zeros(len(along))
+    momenta, found = current.in_one_unit(current.mass @ jump), np.zeros(len(along))
     found[:count] = np.linalg.lstsq(along[:count].T, momenta, rcond=ALONG)[0]
     if np.abs(along.T @ found - momenta).max() > KEPT * np.abs(momenta).max():
         return {}

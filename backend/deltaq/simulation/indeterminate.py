@@ -18,10 +18,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..model.modes import Modes, modes_of_model
+from .least_sizes import least_sizes
 from .mode_state import ModeState, in_mode_of
 from .problem import Floats, Problem, Stretch, numbers_of_stretches
 from .sliding import ALONG, later, rate_of, unclear_rate, unit_row
-from .transitions import TINY, least_sizes
+from .transitions import TINY
 
 SHARE = 1e-6  # of a force in a combination without effect
 UNCLEAR = 1e-9  # of the forces: so close to its bound a force is at it
@@ -102,7 +103,7 @@ def _names(current: ModeState) -> tuple[str, ...]:
     known = problem.moved.undetermined if problem.moved else ()
     along = [*current.kept[0], *(current.facts.along[row] for row in rows)]
     ways = [0.0] * len(multipliers) + [_way_left(current, row) for row in rows]
-    free = _without_effect(np.array([unit_row(each) for each in along]), np.array(ways))
+    free = _without_effect(np.array([unit_row(current, each) for each in along]), np.array(ways))
     own = (*multipliers, *(_name(modes, row) for row in rows))
     is_open = np.abs(free).max(axis=1, initial=0.0) > SHARE
     found = {name for name, each in zip(own, is_open, strict=True) if each and name and name not in known}
@@ -119,7 +120,7 @@ def _of_released(current: ModeState, rows: list[int], along: Floats, free: Float
     first, count = len(current.q), len(current.kept[0])
     acting = [first + k for k in (*range(count), *(count + row for row in rows))]
     shares = released.held_by.shares(current.with_flags(flags).row)[:, acting]
-    changes = shares / np.array([float(np.linalg.norm(row)) or 1.0 for row in along])
+    changes = shares / np.array([float(np.linalg.norm(row)) or 1.0 for row in current.in_one_unit(along)])
     is_open = np.abs(changes @ free).max(axis=1, initial=0.0) > SHARE * np.abs(changes).max(axis=1, initial=0.0)
     known = current.problem.moved.undetermined if current.problem.moved else ()
     yield from (name for name, each in zip(released.names, is_open, strict=True) if each and name not in known)
@@ -143,8 +144,7 @@ def _rests(current: ModeState, row: int) -> bool:
         is_there = row - modes.bounded in current.touching
     else:
         is_there = row < len(modes.frictions) and facts.limits[row] > 0.0
-    still = TINY * float(np.abs(facts.a[row]).max()) * current.size_of_rates
-    if not is_there or abs(facts.w[row]) > still:
+    if not is_there or abs(facts.w[row]) > TINY * current.rate_along(row):
         return False
     behind = later(current)
     return all(abs(rate_of(each, row)) <= unclear_rate(each, row) for each in (current, behind))

@@ -16,6 +16,7 @@ from .once import once
 from .problem import Floats, Problem
 
 TOUCHING = 1e-11  # a gap, relative to the coordinates
+Least = tuple[float | Floats, float | Floats]  # of places, and of rates
 
 
 class Mode(NamedTuple):
@@ -56,8 +57,8 @@ class Facts(NamedTuple):
 class ModeState:
     """A state (q, q̇) at a time, in a mode, of a problem in modes; `q` and `v` have shape (n,).
 
-    What is small is so beside the largest place or rate, which count as `least` at least. Gaps of `closed` times the
-    largest place are closed.
+    What is small is so beside the largest place or rate, which count as `least` at least: a number each, or shape (n,).
+    Gaps of `closed` times what the largest places move them by are closed.
     """
 
     problem: Problem
@@ -66,7 +67,7 @@ class ModeState:
     q: Floats
     v: Floats
     mode: Mode
-    least: tuple[float, float] = (1.0, 1.0)
+    least: Least = (1.0, 1.0)
     closed: float = TOUCHING
 
     @once
@@ -137,32 +138,60 @@ class ModeState:
         """q̈ in this mode without the scene's constraints, shape (n,)."""
         return self.moved_freely_by(self._system.forces)
 
+    def in_one_unit(self, rows: Floats) -> Floats:
+        """Rows of rates, or forces along them, of the coordinates √Mᵢᵢ qᵢ: shape (…, n) as `rows`.
+
+        Entries for lengths and for angles then have one unit, so that their sizes say how far rows are apart.
+        """
+        with np.errstate(over="ignore", invalid="ignore"):  # that a motion exceeds all numbers is told elsewhere
+            return np.asarray(rows / self._roots_of_mass)
+
+    @once
+    def _roots_of_mass(self) -> Floats:
+        """√Mᵢᵢ, shape (n,); 1 for a coordinate without inertia."""
+        diagonal = np.diagonal(self.mass)
+        has_inertia = (diagonal > 0.0) & np.isfinite(diagonal)
+        return np.sqrt(np.where(has_inertia, diagonal, 1.0))
+
     @property
     def touching(self) -> list[int]:
         """The contacts that are closed, but for rounding."""
         if not self.modes.contacts:
             return []
-        size = self.closed * self.size_of_places
-        return [j for j, gap in enumerate(self.facts.gaps) if gap <= self.scale(j) * size]
+        first = self.modes.bounded
+        return [j for j, gap in enumerate(self.facts.gaps) if gap <= self.closed * self.place_along(first + j)]
 
     @once
-    def size_of_places(self) -> float:
-        """The largest |q|."""
-        return size_of(self.q, self.least[0])
+    def sizes_of_places(self) -> Floats:
+        """By coordinate, what the largest place comes to in its unit: shape (n,)."""
+        return np.maximum(self.shared(self.q), self.least[0])
 
     @once
-    def size_of_rates(self) -> float:
-        """The largest |q̇|."""
-        return size_of(self.v, self.least[1])
+    def sizes_of_rates(self) -> Floats:
+        """By coordinate, what the largest rate comes to in its unit: shape (n,)."""
+        return np.maximum(self.shared(self.v), self.least[1])
+
+    def shared(self, values: Floats) -> Floats:
+        """By coordinate, the value that has as much of inertia, Mᵢᵢ xᵢ², as the largest has: shape (n,) as `values`.
+
+        Lengths and angles are compared so, in whatever units; equal inertias have the largest |x|.
+        """
+        with np.errstate(over="ignore", invalid="ignore"):
+            largest = np.abs(values * self._roots_of_mass).max(initial=0.0)
+        return self.in_one_unit(np.full(len(values), largest))
+
+    def place_along(self, row: int) -> float:
+        """What the largest places move the value of a row by, max |aᵢ qᵢ|."""
+        return _largest(self.facts.a[row], self.sizes_of_places)
+
+    def rate_along(self, row: int) -> float:
+        """What the largest rates add to the rate w of a row, max |aᵢ q̇ᵢ|."""
+        return _largest(self.facts.a[row], self.sizes_of_rates)
 
     @once
     def size_of_forces(self) -> float:
         """The largest |λ| or F₀."""
         return max(map(abs, filter(math.isfinite, (*self.facts.reactions, *self.facts.limits))), default=0.0)
-
-    def scale(self, contact: int) -> float:
-        """How far a gap changes with the coordinates, at most; 1 where it does not."""
-        return max(map(abs, self.facts.a[self.modes.bounded + contact].tolist())) or 1.0
 
     @once
     def watched(self) -> Floats:
@@ -215,7 +244,7 @@ class ModeState:
         return self.with_rates(self.v + along * (change / (self.facts.a[row] @ along)))
 
 
-def in_mode_of(problem: Problem, modes: Modes, time: float, least: tuple[float, float] = (1.0, 1.0)) -> ModeState:
+def in_mode_of(problem: Problem, modes: Modes, time: float, least: Least = (1.0, 1.0)) -> ModeState:
     """The state that a stretch of a motion begins with, in seconds, in the mode that its parameters tell."""
     counts = (len(modes.kinks), modes.bounded, modes.rows, modes.watched)
     left, parts = problem.parameters[len(problem.parameters) - sum(counts) :], []
@@ -233,6 +262,7 @@ def _solved(mass: Floats, forces: Floats) -> Floats:
     return np.asarray(np.linalg.solve(mass, forces))
 
 
-def size_of(values: Floats, least: float) -> float:
-    """The largest absolute value, or what it is at least; `values` has shape (n,)."""
-    return float(max((least, *map(abs, values.tolist()))))
+def _largest(row: Floats, sizes: Floats) -> float:
+    """max |aᵢ| sᵢ, of shape (n,) both; of a row of zeros the largest sᵢ."""
+    with np.errstate(over="ignore", invalid="ignore"):
+        return float((np.abs(row) * sizes).max(initial=0.0)) or float(sizes.max(initial=0.0))

@@ -128,20 +128,21 @@ def _pivoted(current: ModeState, rows: Sequence[int]) -> ModeState:
 
 def _dependent(current: ModeState, rows: Sequence[int]) -> int | None:
     """The first row held that constraints, or others before it, hold as well, if there is one."""
-    held = [unit_row(each) for each in current.kept[0]]
+    held = [unit_row(current, each) for each in current.kept[0]]
     known = _rank(held)
     for row in rows:
         if current.mode.flags[row]:
-            held.append(unit_row(current.facts.a[row]))
+            held.append(unit_row(current, current.facts.a[row]))
             if _rank(held) == known:
                 return row
             known += 1
     return None
 
 
-def unit_row(row: Floats) -> Floats:
-    """A row of length 1, shape (n,); one of zeros as it is."""
-    return row / (float(np.linalg.norm(row)) or 1.0)
+def unit_row(current: ModeState, row: Floats) -> Floats:
+    """A row in one unit and of length 1, shape (n,); one of zeros as it is."""
+    found = current.in_one_unit(row)
+    return np.asarray(found / (float(np.linalg.norm(found)) or 1.0))
 
 
 def _rank(rows: Sequence[Floats]) -> int:

@@ -9,7 +9,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from contextlib import suppress
 from dataclasses import dataclass, replace
 from typing import NamedTuple
 
@@ -17,6 +16,7 @@ import numpy as np
 
 from ..model.modes import Modes
 from .impact import ROUNDING, STILL, TICKS, after_impacts
+from .least_sizes import least_sizes
 from .mode_state import TOUCHING, Facts, Mode, ModeState
 from .problem import Floats, Problem
 from .sliding import ALONG, SLACK, draws, leaves, on_side, rate_of, settled, side_left_to, unkept
@@ -26,7 +26,6 @@ LATE = 1e-7  # of the span; so much behind the zero of a gap its event is found 
 HARDLY = 1e-13  # of a rate of slipping
 TINY = 1e-9  # of the rates: what rounding left at an event is no more
 NUDGE = 1e-6  # of the coordinates: for slopes by differences, which are right to about as much
-ROOMY = 1e3  # of what a scene's places and rates are at first: what they may become
 
 
 @dataclass(frozen=True)
@@ -88,21 +87,6 @@ def begun(problem: Problem, modes: Modes, closed: float = TOUCHING) -> ModeState
     current = current.within(empty._replace(kinks=kinks, slips=(*empty.slips[: modes.first_pin], *pins)))
     touching = current.touching
     return _resolved(after_impacts(current, touching[0]).state if touching else current, frozenset(touching), None)
-
-
-def least_sizes(current: ModeState) -> tuple[float, float]:
-    """What places and rates count as, at least, at this start: 1, or less if the scene is much smaller or slower.
-
-    Where it is, and how fast it may become over its span or by what accelerates it, tell. Angles count by a radian.
-    """
-    span, is_angle, pull = current.problem.t_end, any(current.problem.angular), 0.0
-    speed = float(np.abs(current.v).max(initial=0.0))
-    with suppress(np.linalg.LinAlgError):  # without an inverse of M nothing is known; the run tells it
-        pull = float(np.abs(current.accelerations).max(initial=0.0))
-    place = 1.0 if is_angle else float(np.abs(current.q).max(initial=0.0)) or speed * span
-    rate = max(speed, place / span, math.sqrt(pull * place))
-    least_place, least_rate = (min(1.0, ROOMY * each) if 0.0 < each < math.inf else 1.0 for each in (place, rate))
-    return least_place, least_rate
 
 
 def passed(current: ModeState, watched: int) -> ModeEvent:
@@ -173,9 +157,8 @@ def _lies_in(current: ModeState, row: int) -> bool:
     """Whether forces on both sides drive a motion back to a kink, and it goes off it by less than can be told."""
     behind = on_side(current, row, -current.mode.slips[row])
     rate, pull = current.facts.w[row], -float(np.sign(current.facts.w[row])) * rate_of(behind, row)
-    slope = float(np.abs(current.facts.a[row]).max())
     return bool(
-        draws(current, row) and pull > 0.0 and rate * rate / (2.0 * pull) <= OFF_KINK * slope * current.size_of_places
+        draws(current, row) and pull > 0.0 and rate * rate / (2.0 * pull) <= OFF_KINK * current.place_along(row)
     )
 
 
@@ -186,8 +169,8 @@ def _without_rate(current: ModeState, row: int) -> ModeState:
     lift = float(along @ moved)
     if not lift > 0.0:
         return current
-    v, most = current.v + moved * (-current.facts.w[row] / lift), TINY * current.size_of_rates
-    is_tiny = all(abs(change) <= most for change in (v - current.v).tolist())
+    v = current.v + moved * (-current.facts.w[row] / lift)
+    is_tiny = bool((np.abs(v - current.v) <= TINY * current.sizes_of_rates).all())
     return current.with_rates(v) if is_tiny else current
 
 
@@ -210,11 +193,11 @@ def _contact_before(current: ModeState, value: Callable[[Facts], float], sign: f
 
     `value` is that of the kink, `sign` the side that the motion is on.
     """
-    facts, step = current.facts, NUDGE * current.size_of_places
-    beside = [current.at(current.time, current.q + step * each, current.v) for each in np.eye(len(current.q))]
+    facts, steps = current.facts, NUDGE * current.sizes_of_places
+    beside = [current.at(current.time, current.q + each, current.v) for each in np.diag(steps)]
     slope = np.array([value(each.facts) - value(facts) for each in beside])
     for j in current.touching:
-        row = facts.a[current.modes.bounded + j]
+        row = facts.a[current.modes.bounded + j] * steps
         if row.any():
             share = float(slope @ row) / float(row @ row)
             left = float(np.linalg.norm(slope - share * row))
@@ -233,7 +216,7 @@ def _closed(current: ModeState, contact: int) -> ModeState:
     found = _at_zero(current, facts.gaps[contact], facts.w[row], bend)
     gap, along = found.facts.gaps[contact], found.moved_by(found.facts.a[row])
     lift = float(found.facts.a[row] @ along)
-    if not (-TOUCHING * found.scale(contact) * found.size_of_places <= gap < 0.0 and lift > 0.0):
+    if not (-TOUCHING * found.place_along(row) <= gap < 0.0 and lift > 0.0):
         return found
     return found.at(found.time, found.q - gap / lift * along, found.v)
 
@@ -261,9 +244,11 @@ def _resolved(current: ModeState, closed: frozenset[int], released: int | None, 
     """
     modes, bounded = current.modes, current.modes.bounded
     held = _at_rest(current, closed, released, come)
-    facts, size = current.facts, current.size_of_rates
+    facts = current.facts
     slips = [
-        s if held[row] or row >= modes.first_pin or abs(facts.w[row]) <= HARDLY * size else _sign(facts.w[row])
+        s
+        if held[row] or row >= modes.first_pin or abs(facts.w[row]) <= HARDLY * current.rate_along(row)
+        else _sign(facts.w[row])
         for row, s in enumerate(current.mode.slips)
     ]
     if released is not None and released < bounded:
@@ -273,9 +258,9 @@ def _resolved(current: ModeState, closed: frozenset[int], released: int | None, 
     for row in range(modes.rows):
         if held[row] and current.facts.w[row] != 0.0:
             current = _without_rate(current, row)
-    facts, sticking = current.facts, list(held[:bounded])
+    sticking = list(held[:bounded])
     for _ in range(2 * modes.rows + 2):
-        across = _held_by_others(modes, facts, held, sticking)
+        across = _held_by_others(current, held, sticking)
         held[:bounded] = [sticks and not across[k] for k, sticks in enumerate(sticking)]
         slips = [across[k] or slip for k, slip in enumerate(slips)]
         found = current.with_rows(slips, held)
@@ -296,19 +281,19 @@ def _at_rest(current: ModeState, closed: frozenset[int], released: int | None, c
 
     At a dead centre what slips moves with no coordinate, so that no force along it could hold it.
     """
-    modes, facts, size, touching = current.modes, current.facts, current.size_of_rates, current.touching
+    modes, facts, touching = current.modes, current.facts, current.touching
     least = [TINY if flag else HARDLY for flag in current.mode.flags]  # what sticks may have been moved by an impact
     held = [
-        bool(facts.a[row] @ facts.a[row] > 0.0) and (abs(facts.w[row]) <= least[row] * size or row == come)
+        bool(facts.a[row] @ facts.a[row] > 0.0)
+        and (abs(facts.w[row]) <= least[row] * current.rate_along(row) or row == come)
         for row in range(modes.bounded)
     ]
     for row in range(modes.first_pin, modes.bounded):
-        slope = float(np.abs(facts.a[row]).max())
-        held[row] &= abs(facts.pins[row - modes.first_pin]) <= ROUNDING * slope * current.size_of_places
+        held[row] &= abs(facts.pins[row - modes.first_pin]) <= ROUNDING * current.place_along(row)
     for j in range(len(modes.contacts)):
         row = modes.bounded + j
         touches = j in closed or current.mode.flags[row] or j in touching
-        held.append(bool(touches and abs(facts.w[row]) <= 10.0 * STILL * current.scale(j) * size))
+        held.append(bool(touches and abs(facts.w[row]) <= 10.0 * STILL * current.rate_along(row)))
     if released is not None:
         held[released] = False
     return held
@@ -326,30 +311,31 @@ def _sign(value: float) -> float:
     return 1.0 if value > 0.0 else -1.0 if value < 0.0 else value
 
 
-def _held_by_others(modes: Modes, facts: Facts, held: list[bool], sticking: list[bool]) -> list[float]:
+def _held_by_others(current: ModeState, held: list[bool], sticking: list[bool]) -> list[float]:
     """Of each friction or switch 0, or its side as what holds all that it would hold lets go.
 
     A slide at its stop is held by both, and what each takes is not determined. The contact takes it, with the friction
     that an opening would meet: it holds up to where that does no longer. So does a kink of places that it lies in.
     """
+    modes = current.modes
     contacts = [row for row in range(modes.bounded, modes.rows) if held[row]]
     pins = [row for row in range(modes.first_pin, modes.bounded) if held[row]]
     if not (contacts or pins):
         return [0.0] * len(sticking)
     return [
-        _share(facts, k, contacts if k >= modes.first_pin else [*pins, *contacts]) if sticks else 0.0
+        _share(current, k, contacts if k >= modes.first_pin else [*pins, *contacts]) if sticks else 0.0
         for k, sticks in enumerate(sticking)
     ]
 
 
-def _share(facts: Facts, row: int, others: list[int]) -> float:
+def _share(current: ModeState, row: int, others: list[int]) -> float:
     """0 for a row that others do not hold as well, else which way it goes with them."""
     if not others:
         return 0.0
-    rows = facts.a[others].T
-    shares = np.linalg.lstsq(rows, facts.a[row], rcond=None)[0]
-    left = float(np.linalg.norm(facts.a[row] - rows @ shares))
-    if left > ALONG * float(np.linalg.norm(facts.a[row])):
+    rows, own = current.in_one_unit(current.facts.a[others]).T, current.in_one_unit(current.facts.a[row])
+    shares = np.linalg.lstsq(rows, own, rcond=None)[0]
+    left = float(np.linalg.norm(own - rows @ shares))
+    if left > ALONG * float(np.linalg.norm(own)):
         return 0.0
     return 1.0 if shares.sum() >= 0.0 else -1.0
 
@@ -392,15 +378,17 @@ def with_offsets(current: ModeState) -> ModeState:
     values, moved = plain.watched.tolist(), _moved_by_time(plain)
     ending = len(modes.ending)
     first = ending + len(modes.kinks)
-    pins, last = first + 2 * modes.first_pin, first + 2 * modes.bounded
-    of_rates, of_places = HARDLY * current.size_of_rates, ROUNDING * current.size_of_places
+    pins = first + 2 * modes.first_pin
     offsets = []
     for place, value in enumerate(values):
         if place >= modes.first_bound or (place >= first and mode.flags[_row_watched(modes, place)]):
             room = HARDLY * current.size_of_forces
+        elif place < first:
+            room = ROUNDING * float(current.sizes_of_places.max())
+        elif place < pins:
+            room = HARDLY * current.rate_along(_row_watched(modes, place))
         else:
-            room = of_rates if first <= place < pins else of_places
-            room *= current.scale(place - last) if place >= last else 1.0
+            room = ROUNDING * current.place_along(_row_watched(modes, place))
         room += moved[place]
         offsets.append(0.0 if place < ending or value > room else room - min(value, 0.0))
     return plain.offset_by(tuple(offsets)) if any(offsets) else plain
