@@ -7,7 +7,7 @@ from random import Random
 
 import numpy as np
 import pytest
-from tests.simulation.carts import Cart, Train, drawn
+from tests.simulation.carts import Cart, Train, UndecidedError, drawn
 from tests.simulation.scenes import scene
 
 from deltaq.mechanics.document import read_scene
@@ -19,6 +19,7 @@ from deltaq.simulation.service import problem_of
 from deltaq.simulation.trajectory import Trajectory
 
 METHODS = ("dop853", "taylor", "dormand-prince-54", "rk4", "radau-5", "gauss-4")
+FIRST_ORDER = 5e-3  # of time steps
 TRUE = 3e-10  # SciPy is right to about as much
 
 
@@ -46,9 +47,13 @@ def in_two_parts(train: Train, random: Random) -> Scene:
 
 
 def is_covered(found: Trajectory, train: Train) -> bool:
+    """By its estimate; to first order where a machine's rounding leaves undecided in which order rows let go."""
     assert found.estimate is not None
-    true = np.abs(train.along(found.times) - found.values).max(axis=1)
-    return bool((true <= found.estimate.errors + TRUE).all())
+    try:
+        known = train.along(found.times)
+    except UndecidedError:
+        return bool(np.abs(train.stepped(found.times, 4000) - found.values).max() < FIRST_ORDER)
+    return bool((np.abs(known - found.values).max(axis=1) <= found.estimate.errors + TRUE).all())
 
 
 @pytest.mark.parametrize("method", METHODS)
@@ -144,7 +149,7 @@ def test_a_cart_in_two_parts_that_a_rod_links_moves_as_one(seed: int) -> None:
 
 def test_more_holds_parts_that_a_rod_links_than_is_determined() -> None:
     train, found = linked(7)
-    assert np.abs(found.values[:, :-1] - train.stepped(found.times, 4000)).max() < 5e-3
+    assert np.abs(found.values[:, :-1] - train.stepped(found.times, 4000)).max() < FIRST_ORDER
 
 
 def linked(seed: int) -> tuple[Train, Trajectory]:
